@@ -54,7 +54,7 @@ void requireLinear(const openvdb::GridBase& grid)
     OPENVDB_THROW(openvdb::ValueError,
         detail::describe(grid)
             << " has a frustum transform, whose voxels are of many sizes: give it "
-               "a linear one before it is resampled");
+               "a linear one in the program that made it");
 }
 
 /// The world volume of a voxel.

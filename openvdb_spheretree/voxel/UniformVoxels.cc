@@ -63,7 +63,8 @@ void requireUniformVoxels(const openvdb::GridBase& grid)
         OPENVDB_THROW(openvdb::ValueError,
             detail::describe(grid)
                 << " has a frustum transform, so "
-                   "its voxels are not of one size: resample it to cubic voxels");
+                   "its voxels are not of one size: give it a linear one in the program that "
+                   "made it");
     }
     const VoxelEdges voxel(transform);
     const double* length = voxel.length;

@@ -83,7 +83,7 @@ Running::Running(const std::vector<std::string>& line, const std::filesystem::pa
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600), 2);
     if (chdir(folder.c_str()) != 0) _exit(126);
     // As a terminal's children have them, whatever the tests run under.
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) signal(number, SIG_DFL);
     if (prepare) prepare();
     execvp(argv[0], argv.data());
     _exit(127);

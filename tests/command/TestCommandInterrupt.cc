@@ -49,7 +49,7 @@ TEST_F(CommandInterrupt, StopsALongBuildAndLeavesNothing)
 TEST_F(CommandInterrupt, LeavesIgnoredSignalsIgnored)
 {
     ASSERT_EQ(mkfifo(path("silent").c_str(), 0600), 0);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         Running command = start(
             {"-config", "silent", "-print"}, "/dev/null", [number] { signal(number, SIG_IGN); });
         std::ofstream pipe(path("silent")); // waits for the command to open it
@@ -62,18 +62,21 @@ TEST_F(CommandInterrupt, LeavesIgnoredSignalsIgnored)
     }
 }
 
+/// A limit of processor time is a request to stop as well.
 TEST_F(CommandInterrupt, WakesACommandThatWaitsForItsInput)
 {
     ASSERT_EQ(mkfifo(path("silent").c_str(), 0600), 0);
     writeBlock("a.vol");
     const auto before = files();
-    Running command =
-        start({"-read", "a.vol", "-read", "stdin.vdb", "-spheretree", "-write", "t.vdb"},
-            path("silent").string());
-    ASSERT_TRUE(command.waitForError("-read a.vol ... completed"));
-    command.send(SIGINT);
-    EXPECT_EQ(command.wait().exitCode, 5);
-    EXPECT_EQ(files(), before);
+    for (const int number : {SIGINT, SIGXCPU}) {
+        Running command =
+            start({"-read", "a.vol", "-read", "stdin.vdb", "-spheretree", "-write", "t.vdb"},
+                path("silent").string());
+        ASSERT_TRUE(command.waitForError("-read a.vol ... completed"));
+        command.send(number);
+        EXPECT_EQ(command.wait().exitCode, 5) << number;
+        EXPECT_EQ(files(), before);
+    }
 }
 
 TEST_F(CommandInterrupt, WakesACommandThatWaitsForTheWriterOfAPipe)

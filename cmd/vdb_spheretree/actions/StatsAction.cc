@@ -36,23 +36,25 @@ void runStats(const ActionCall& call, Session& session)
 }
 
 /// One number of cubes, else three.
-std::string voxelText(const openvdb::Vec3d& size)
+std::string voxelText(const openvdb::GridBase& grid)
 {
     openvdb_spheretree::detail::TextStream out;
-    out << size[0];
-    if (size.eq(openvdb::Vec3d(size[0]), 1e-6 * size[0])) return out.str();
-    out << " x " << size[1] << " x " << size[2] << " (-resample makes cubes)";
+    const openvdb::math::Transform& transform = grid.transform();
+    if (openvdb_spheretree::hasCubicVoxels(transform)) {
+        out << openvdb_spheretree::voxelSizeOf(transform);
+        return out.str();
+    }
+    const openvdb::Vec3d size = grid.voxelSize();
+    out << size[0] << " x " << size[1] << " x " << size[2]
+        << (transform.isLinear() ? " (-resample makes cubes)" : " in the middle of a frustum");
     return out.str();
 }
 
 void printGrid(std::ostream& out, const openvdb::GridBase& grid)
 {
     const auto size = openvdb_spheretree::detail::sidesOf(grid.evalActiveVoxelBoundingBox());
-    const openvdb::Vec3d voxel = openvdb_spheretree::hasCubicVoxels(grid.transform())
-        ? openvdb::Vec3d(openvdb_spheretree::voxelSizeOf(grid.transform()))
-        : grid.voxelSize();
     out << ", " << counted(int64_t(grid.activeVoxelCount()), "active voxel") << " of "
-        << voxelText(voxel) << ", box " << size[0] << " x " << size[1] << " x " << size[2] << ", "
+        << voxelText(grid) << ", box " << size[0] << " x " << size[1] << " x " << size[2] << ", "
         << withCommas(int64_t(grid.memUsage() >> 10)) << " KiB";
 }
 

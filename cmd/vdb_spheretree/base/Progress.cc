@@ -46,7 +46,7 @@ void catchSignals()
     struct sigaction action = {};
     action.sa_handler = stopBySignal; // without SA_RESTART: a read that waits is to come back
     sigemptyset(&action.sa_mask);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction before = {};
         sigaction(number, nullptr, &before);
         // What is ignored stays so: nohup, and Ctrl-C of what a script runs in the background.

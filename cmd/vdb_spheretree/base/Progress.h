@@ -17,7 +17,7 @@
 
 namespace command {
 
-/// @brief Install signal handlers. Ctrl-C, SIGTERM and a closed terminal request a clean stop, and
+/// @brief Install signal handlers. Ctrl-C, SIGTERM, a closed terminal and a limit of processor time request a clean stop, and
 /// end the program a second later if it has not stopped by then; those of them that whoever started it had
 /// ignored stay ignored. A closed pipe and a full file become
 /// errors that are reported, not signals that kill.

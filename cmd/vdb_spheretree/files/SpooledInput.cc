@@ -7,17 +7,26 @@
 #include <openvdb_spheretree/base/UnnamedFile.h>
 
 #include <cerrno>
+#include <streambuf>
 #include <vector>
 
 #include <unistd.h>
 
 namespace command {
 
-void throwEmptyInput(const std::string& name)
+void requireInput(std::streambuf& input, const std::string& name)
 {
-    throwInput(name
-        + ": the input is empty: standard input is closed or has nothing in it, or the "
-          "command before this one has written nothing");
+    bool isEmpty = false;
+    try {
+        isEmpty = input.sgetc() == std::streambuf::traits_type::eof();
+    } catch (const CommandError& error) {
+        throw CommandError(error.code(), name + ": " + error.what());
+    }
+    if (isEmpty) {
+        throwInput(name
+            + ": the input is empty: standard input is closed or has nothing in it, or the "
+              "command before this one has written nothing");
+    }
 }
 
 SpooledInput::SpooledInput(const std::string& name)
@@ -38,7 +47,7 @@ SpooledInput::~SpooledInput() { close(mFd); }
 void SpooledInput::fillFrom(int fd, const std::string& name) const
 {
     FdBuffer input(fd);
-    if (input.sgetc() == FdBuffer::traits_type::eof()) throwEmptyInput(name);
+    requireInput(input, name);
     std::vector<char> block(1 << 20);
     while (const auto size = size_t(input.sgetn(block.data(), std::streamsize(block.size())))) {
         for (size_t done = 0; done < size;) {

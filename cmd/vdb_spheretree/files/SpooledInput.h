@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <iosfwd>
 #include <string>
 
 namespace command {
@@ -32,7 +33,7 @@ private:
     const int mFd;
 };
 
-/// @throw CommandError (input) for a standard input without a byte
-[[noreturn]] void throwEmptyInput(const std::string& name);
+/// @throw CommandError (input), with the name, for a standard input without a byte, or that cannot be read
+void requireInput(std::streambuf& input, const std::string& name);
 
 } // namespace command

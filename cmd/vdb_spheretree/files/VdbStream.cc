@@ -57,8 +57,7 @@ openvdb::GridPtrVec readWhole(const std::string& path)
 {
     const InputFile file = inputOf(path);
     FdBuffer buffer(file.fd());
-    const bool isStdin = path == "stdin.vdb";
-    if (isStdin && buffer.sgetc() == FdBuffer::traits_type::eof()) throwEmptyInput(path);
+    if (path == "stdin.vdb") requireInput(buffer, path);
     return naming(path, [&] {
         TagReader reader(buffer);
         auto grids = openvdb_spheretree::readVdbGrids(reader);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -52,6 +53,7 @@ Json parsed(std::istream& text)
 Json sceneOf(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
+    if (!file) throw openvdb::IoError("it cannot be opened: " + std::string(std::strerror(errno)));
     struct Header {
         char magic[4];
         uint32_t version, bytes, chunkBytes;

@@ -2,6 +2,7 @@
 /// @file TestMeshScene.cc
 /// @brief Scenes that assimp reads: their meshes in place, every truncation refused.
 
+#include <openvdb_spheretree/input/mesh/GltfExtensions.h>
 #include <openvdb_spheretree/input/mesh/MeshFile.h>
 
 #include <openvdb_spheretree/base/Interrupted.h>
@@ -12,6 +13,7 @@
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/Exceptions.h>
 
 #include <atomic>
 #include <cstdint>
@@ -239,6 +241,15 @@ TEST(MeshScene, RefusesExtensionsThatSayWhichTrianglesThereAre)
     std::string used = gltfScene(); // not required: the scene is whole without
     used.insert(1, "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"],");
     EXPECT_EQ("", errorOf("a.gltf", used));
+}
+
+/// As where a process may have no more files open: the file is no damaged one.
+TEST(MeshScene, AFileThatCannotBeOpenedIsNotDamaged)
+{
+    if (!readsOtherMeshFormats()) GTEST_SKIP() << "needs a build with assimp";
+    const std::string message = messageOf<openvdb::IoError>(
+        [] { openvdb_spheretree::detail::requireKnownExtensions("nowhere/a.glb"); });
+    EXPECT_TRUE(mentions(message, "cannot be opened: No such file"));
 }
 
 /// Numbers that are in the text itself: the limits are those of the file.
