@@ -5,7 +5,6 @@
 #include "NodeCanvas.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/ParallelSort.h>
-#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <algorithm>
 #include <cstddef>

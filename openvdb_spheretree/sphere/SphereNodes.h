@@ -9,6 +9,7 @@
 #include "ClippedSphere.h"
 #include <openvdb_spheretree/base/LargeArray.h>
 #include <openvdb_spheretree/voxel/MaskTree.h>
+#include <openvdb_spheretree/voxel/Masks.h>
 
 #include <openvdb/util/NullInterrupter.h>
 
