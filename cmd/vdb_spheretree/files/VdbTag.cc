@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <istream>
+#include <vector>
 
 namespace command {
 
