@@ -34,7 +34,8 @@ grep -q "openvdb_spheretree_DIR:PATH=$PWD/root" consume/CMakeCache.txt || fail "
 root/usr/bin/vdb_spheretree -quiet -generate ball voxels=2000 -spheretree spheres=8 -write tree.vdb tree.urdf
 modules=root/usr/lib/python3/dist-packages
 if [ -n "$python" ]; then
-    PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$PWD/$modules" "$python" - "$PWD/$modules" <<'END' || fail "the installed Python module does not work"
+    # Of a build with the address sanitizer, its runtime is loaded first.
+    LD_PRELOAD="${SPHERETREE_PRELOAD:-}" ASAN_OPTIONS=detect_leaks=0 PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$PWD/$modules" "$python" - "$PWD/$modules" <<'END' || fail "the installed Python module does not work"
 import sys
 import numpy, spheretree
 assert spheretree.__file__.startswith(sys.argv[1]), spheretree.__file__
