@@ -24,7 +24,6 @@
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -51,9 +50,8 @@ public:
         if (mLarge.empty()) return;
         mGroups.build(balls, mLarge.data(), mLarge.data() + mLarge.size(), canvas.origin(),
             NodeCanvas::kLog2, NodeCanvas::kGroupLog2, {canvas.slab(), canvas.slab()});
-        const int end = std::min(canvas.endGroup(), int(mGroups.endReached()));
-        for (int group = std::max(canvas.firstGroup(), int(mGroups.firstReached())); group < end;
-             ++group) {
+        const int end = int(mGroups.endReached()); // all of them are of the slab
+        for (int group = int(mGroups.firstReached()); group < end; ++group) {
             drawGroup(balls, group);
         }
     }

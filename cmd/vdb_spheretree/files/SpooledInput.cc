@@ -16,16 +16,12 @@ namespace command {
 
 void requireInput(std::streambuf& input, const std::string& name)
 {
-    bool isEmpty = false;
     try {
-        isEmpty = input.sgetc() == std::streambuf::traits_type::eof();
-    } catch (const CommandError& error) {
-        throw CommandError(error.code(), name + ": " + error.what());
-    }
-    if (isEmpty) {
-        throwInput(name
-            + ": the input is empty: standard input is closed or has nothing in it, or the "
-              "command before this one has written nothing");
+        if (input.sgetc() != std::streambuf::traits_type::eof()) return;
+        throwInput("the input is empty: standard input is closed or has nothing in it, or the "
+                   "command before this one has written nothing");
+    } catch (...) {
+        rethrowNamed(name, kInput);
     }
 }
 
