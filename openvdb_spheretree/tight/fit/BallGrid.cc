@@ -33,9 +33,36 @@ int32_t cellAt(int64_t cell)
     return int32_t(std::clamp(cell, -kLast, kLast));
 }
 
-Coord clusterOf(const Coord& cell) { return cell >> 2; }
+constexpr int kClusterShift = 2; ///< a cluster is 4 cells wide
+constexpr int kClusterDim = 1 << kClusterShift;
 
-/// Calls body(entries) for the clusters in a box.
+Coord clusterOf(const Coord& cell) { return cell >> std::size_t(kClusterShift); }
+
+/// @return the number of a cell within its cluster.
+uint8_t numberOf(const Coord& cell)
+{
+    const Coord at = cell & (kClusterDim - 1);
+    return uint8_t((at[0] * kClusterDim + at[1]) * kClusterDim + at[2]);
+}
+
+/// @return a bit for each cell of a cluster: whether it lies in @a box, which meets the cluster.
+uint64_t cellsIn(const Coord& cluster, const CoordBBox& box)
+{
+    constexpr int64_t kFirst = 0, kLast = kClusterDim - 1;
+    int lo[3], hi[3];
+    for (int a = 0; a < 3; ++a) {
+        const int64_t origin = int64_t(cluster[a]) * kClusterDim;
+        lo[a] = int(std::max(kFirst, box.min()[a] - origin));
+        hi[a] = int(std::min(kLast, box.max()[a] - origin));
+    }
+    uint64_t line = 0, plane = 0, all = 0;
+    for (int z = lo[2]; z <= hi[2]; ++z) line |= uint64_t(1) << z;
+    for (int y = lo[1]; y <= hi[1]; ++y) plane |= line << (kClusterDim * y);
+    for (int x = lo[0]; x <= hi[0]; ++x) all |= plane << (kClusterDim * kClusterDim * x);
+    return all;
+}
+
+/// Calls body(place, cluster) for the clusters in a box.
 template <typename Grid, typename Body>
 void forEachCluster(const Grid& grid, const CoordBBox& box, const Body& body)
 {
@@ -44,12 +71,12 @@ void forEachCluster(const Grid& grid, const CoordBBox& box, const Body& body)
     const double lookUps = double(size[0]) * size[1] * size[2];
     if (lookUps > std::min(kFewLookUps, double(grid.clusters.size()))) {
         grid.occupied.forEachIn(
-            box, [&](const Coord& at) { body(grid.clusters.find(at)->second); });
+            box, [&](const Coord& at) { body(at, grid.clusters.find(at)->second); });
         return;
     }
     for (const Coord& at : box) {
         const auto cluster = grid.clusters.find(at);
-        if (cluster != grid.clusters.end()) body(cluster->second);
+        if (cluster != grid.clusters.end()) body(at, cluster->second);
     }
 }
 
@@ -67,9 +94,12 @@ void BallGrid::add(int32_t id, const ExactSphere& ball)
     const int log2 = log2CellOf(ball);
     const Coord cell = cellOf(ball.center, log2);
     Grid& grid = mGrids[log2];
-    std::vector<Entry>& entries = grid.clusters[clusterOf(cell)];
+    auto& [cells, entries] = grid.clusters[clusterOf(cell)];
     if (entries.empty()) grid.occupied.add(clusterOf(cell));
-    entries.push_back({ball, ball.radius(), id, cell});
+    const uint8_t number = numberOf(cell);
+    const auto at = std::upper_bound(cells.begin(), cells.end(), number) - cells.begin();
+    entries.insert(entries.begin() + at, {ball, ball.radius(), FineBox(ball), id});
+    cells.insert(cells.begin() + at, number);
     ++mSize;
 }
 
@@ -79,10 +109,11 @@ void BallGrid::remove(int32_t id, const ExactSphere& ball)
     const auto grid = mGrids.find(log2);
     Clusters& clusters = grid->second.clusters;
     const auto cluster = clusters.find(clusterOf(cellOf(ball.center, log2)));
-    std::vector<Entry>& entries = cluster->second;
-    *std::find_if(entries.begin(), entries.end(),
-        [&](const Entry& entry) { return entry.id == id; }) = entries.back();
-    entries.pop_back();
+    auto& [cells, entries] = cluster->second;
+    const auto entry = std::find_if(
+        entries.begin(), entries.end(), [&](const Entry& some) { return some.id == id; });
+    cells.erase(cells.begin() + (entry - entries.begin()));
+    entries.erase(entry);
     if (entries.empty()) {
         grid->second.occupied.remove(cluster->first);
         clusters.erase(cluster);
@@ -101,9 +132,11 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
             near.min()[a] = cellAt((box.lo[a] - width) >> log2);
             near.max()[a] = cellAt((box.hi[a] + width) >> log2);
         }
-        forEachCluster(grid, near >> std::size_t(2), [&](const std::vector<Entry>& entries) {
-            for (const Entry& entry : entries) {
-                if (near.isInside(entry.cell)) body(entry);
+        const CoordBBox clusters = near >> std::size_t(kClusterShift);
+        forEachCluster(grid, clusters, [&](const Coord& at, const Cluster& cluster) {
+            const uint64_t wanted = cellsIn(at, near);
+            for (std::size_t i = 0; i < cluster.cells.size(); ++i) {
+                if (wanted >> cluster.cells[i] & 1) body(cluster.entries[i]);
             }
         });
     }
@@ -123,7 +156,7 @@ std::vector<int32_t> BallGrid::meeting(const FineBox& box) const
 {
     std::vector<int32_t> found;
     forEachNear(box, [&](const Entry& entry) {
-        if (FineBox(entry.ball).meets(box)) found.push_back(entry.id);
+        if (entry.box.meets(box)) found.push_back(entry.id);
     });
     std::sort(found.begin(), found.end());
     return found;

@@ -47,11 +47,16 @@ public:
 private:
     struct Entry {
         ExactSphere ball;
-        double radius;
+        double radius; ///< of the ball
+        FineBox box;   ///< around it
         int32_t id;
-        openvdb::Coord cell;
     };
-    using Clusters = std::unordered_map<openvdb::Coord, std::vector<Entry>, CoordHash>;
+    /// The balls of 4^3 cells, in the order of cells. A query reads one byte of each, and the entries in cells near.
+    struct Cluster {
+        std::vector<uint8_t> cells; ///< of each entry, its cell's number within the cluster
+        std::vector<Entry> entries;
+    };
+    using Clusters = std::unordered_map<openvdb::Coord, Cluster, CoordHash>;
     struct Grid {
         Clusters clusters; ///< the balls in each; none is empty
         OccupiedCells occupied;

@@ -7,30 +7,30 @@
 #include <openvdb_spheretree/base/Stage.h>
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too.
-std::vector<int32_t> takeApart(std::vector<int32_t>& ids, const BallCover& cover)
+/// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too. Only the first few are looked
+/// at, as a list may be long.
+std::vector<int32_t> takeApart(std::deque<int32_t>& ids, const BallCover& cover)
 {
     constexpr std::size_t kMost = 64, kSeen = 4 * kMost;
     std::vector<FineBox> boxes;
-    std::vector<int32_t> taken, left;
-    for (const int32_t id : ids) {
+    std::vector<int32_t> taken, waiting;
+    while (!ids.empty() && taken.size() < kMost && boxes.size() < kSeen) {
+        const int32_t id = ids.front();
+        ids.pop_front();
         const ExactSphere& ball = cover[id].ball;
         if (ball.empty()) continue;
-        if (taken.size() == kMost || boxes.size() == kSeen) {
-            left.push_back(id);
-            continue;
-        }
         const FineBox box(ball, 0.5 * ball.radius() + 4 * kFine);
-        (box.meetsAny(boxes) ? left : taken).push_back(id);
+        (box.meetsAny(boxes) ? waiting : taken).push_back(id);
         boxes.push_back(box); // those that wait keep their turn
     }
-    ids.swap(left);
+    ids.insert(ids.begin(), waiting.begin(), waiting.end());
     return taken;
 }
 
@@ -74,7 +74,7 @@ void placeAll(BallCover& cover, const PartFit& fit, double& change, SearchLoops&
 {
     std::vector<char> isStale(cover.size(), 1);
     for (int sweep = 0; sweep < fit.effort().sweeps; ++sweep) {
-        std::vector<int32_t> left;
+        std::deque<int32_t> left;
         for (int32_t id = 0; id < int32_t(cover.size()); ++id) {
             if (isStale[id]) left.push_back(id);
         }

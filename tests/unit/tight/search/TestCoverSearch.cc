@@ -129,6 +129,26 @@ TEST(CoverSearch, KeepsACoverWhereManyBallsChangeAtATime)
     }
 }
 
+/// Surroundings of balls that are near meet, so only some of these are placed at a time; the others wait for their turn.
+TEST(CoverSearch, OneSweepPlacesAllBallsThoughTheirSurroundingsMeet)
+{
+    Voxels voxels;
+    std::vector<ExactSphere> balls;
+    for (int i = 0; i < 300; ++i) { // more than are looked at at a time
+        voxels.push_back(Coord(2 * i, 0, 0));
+        balls.push_back(voxelBall(voxels.back()));
+        balls.back().radiusSq = kFine * kFine;
+    }
+    const SampledObject object = sampled(voxels);
+    ASSERT_GT(excess(balls, voxels), 0);
+    SearchEffort effort{kEffort, 0, 0, false};
+    effort.sweeps = 1;
+    const SearchedCover found =
+        improveCover(ungrouped(balls), {}, object, VoxelGoal(object.level(0)), effort, nullptr);
+    EXPECT_EQ(excess(ballsOf(found.balls), voxels), 0);
+    EXPECT_EQ(found.balls.size(), balls.size());
+}
+
 /// Without trials every ball is placed anew, and that is all.
 TEST(CoverSearch, TrialsGainAsMuchAsExpectedOnTop)
 {
