@@ -40,22 +40,27 @@ namespace openvdb_spheretree::tight {
 namespace {
 
 std::unique_ptr<MergeModel> modelFor(
-    const TightOptions& options, const std::vector<ExactSphere>& leafBalls, const LevelMaker& maker)
+    const TightOptions& options, const LeafBalls& leaves, const LevelMaker& maker)
 {
+    const std::vector<ExactSphere>& leafBalls = leaves.balls;
+    const bool areInside = !leaves.digital.empty(); // given ones may reach out of the object
     const SampledObject& object = maker.object;
     const auto interrupter = maker.interrupter;
     const SampleLevel& voxels = object.level(0);
     if (options.cover == Cover::Balls) {
+        HeldByLeafBalls held = heldBalls(leafBalls);
+        held.areInside = areInside;
         return std::make_unique<StrictMerging>(
-            object, ungrouped(leafBalls), heldBalls(leafBalls), maker.fit, maker.flat, interrupter);
+            object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
     }
     if (options.quality == Quality::Fast) {
-        auto held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter));
+        HeldByLeafBalls held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter));
+        held.areInside = areInside;
         return std::make_unique<StrictMerging>(
             object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
     }
     return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
-        regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter);
+        regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter, areInside);
 }
 
 /// @throw openvdb::ValueError if making levels from the leaf balls needs more memory than there may be
@@ -155,7 +160,7 @@ std::vector<TightLevel> cutLevels(SphereTree& tree, const TightSource& source)
     const LeafBalls& leaves = source.leaves;
     const LevelMaker& maker = source.maker;
     maker.interrupter->expect(1);
-    const auto model = modelFor(options, leaves.balls, maker);
+    const auto model = modelFor(options, leaves, maker);
     const auto forest = [&] {
         const detail::Step step(maker.interrupter, 1);
         constexpr int kNeighbours = 6, kMore = 8;

@@ -33,10 +33,10 @@ int32_t cellAt(int64_t cell)
     return int32_t(std::clamp(cell, -kLast, kLast));
 }
 
-constexpr int kClusterShift = 2; ///< a cluster is 4 cells wide
+constexpr std::size_t kClusterShift = 2; ///< a cluster is 4 cells wide
 constexpr int kClusterDim = 1 << kClusterShift;
 
-Coord clusterOf(const Coord& cell) { return cell >> std::size_t(kClusterShift); }
+Coord clusterOf(const Coord& cell) { return cell >> kClusterShift; }
 
 /// @return the number of a cell within its cluster.
 uint8_t numberOf(const Coord& cell)
@@ -108,12 +108,13 @@ void BallGrid::remove(int32_t id, const ExactSphere& ball)
     const int log2 = log2CellOf(ball);
     const auto grid = mGrids.find(log2);
     Clusters& clusters = grid->second.clusters;
-    const auto cluster = clusters.find(clusterOf(cellOf(ball.center, log2)));
+    const Coord cell = cellOf(ball.center, log2);
+    const auto cluster = clusters.find(clusterOf(cell));
     auto& [cells, entries] = cluster->second;
-    const auto entry = std::find_if(
-        entries.begin(), entries.end(), [&](const Entry& some) { return some.id == id; });
-    cells.erase(cells.begin() + (entry - entries.begin()));
-    entries.erase(entry);
+    auto at = std::lower_bound(cells.begin(), cells.end(), numberOf(cell)) - cells.begin();
+    while (entries[std::size_t(at)].id != id) ++at;
+    cells.erase(cells.begin() + at);
+    entries.erase(entries.begin() + at);
     if (entries.empty()) {
         grid->second.occupied.remove(cluster->first);
         clusters.erase(cluster);
@@ -132,7 +133,7 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
             near.min()[a] = cellAt((box.lo[a] - width) >> log2);
             near.max()[a] = cellAt((box.hi[a] + width) >> log2);
         }
-        const CoordBBox clusters = near >> std::size_t(kClusterShift);
+        const CoordBBox clusters = near >> kClusterShift;
         forEachCluster(grid, clusters, [&](const Coord& at, const Cluster& cluster) {
             const uint64_t wanted = cellsIn(at, near);
             for (std::size_t i = 0; i < cluster.cells.size(); ++i) {
@@ -145,8 +146,10 @@ void BallGrid::forEachNear(const FineBox& box, const Body& body) const
 std::vector<int32_t> BallGrid::near(const ExactSphere& ball, double slack) const
 {
     std::vector<int32_t> found;
+    const double radius = ball.radius();
     forEachNear(FineBox(ball, std::max(0.0, slack)), [&](const Entry& entry) {
-        if (gapBetween(entry.ball, ball) <= slack) found.push_back(entry.id);
+        const double gap = centerDistance(entry.ball, ball) - entry.radius - radius;
+        if (gap <= slack) found.push_back(entry.id);
     });
     std::sort(found.begin(), found.end());
     return found;

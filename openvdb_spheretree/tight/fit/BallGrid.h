@@ -3,8 +3,8 @@
 /// @brief Finds the balls of a cover that are near a place.
 ///
 /// There is a hash grid for each power of two of the radius. A ball is in the grid whose cells are just
-/// as wide as its radius or wider, in the cell of its center. Adding and removing take constant time,
-/// so the grids live as long as the cover does.
+/// as wide as its radius or wider, in the cell of its center. Adding and removing touch the balls of a few cells
+/// alone, so the grids live as long as the cover does.
 ///
 /// A large ball reaches many cells of the grids of small ones, and nearly all are empty. So balls are
 /// listed by clusters of 4^3 cells, one look-up each, and those of other cells are passed over. (Without

@@ -51,8 +51,12 @@ public:
         const LevelMaker& maker)
         : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker),
           mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)),
-          mMoved(regions.size(), 0)
-    {}
+          mChildren(mCover.size()), mMoved(regions.size(), 0)
+    {
+        for (std::size_t c = 0; c < regions.size(); ++c) {
+            mChildren[std::size_t(finer.parent[c])].push_back(int32_t(c));
+        }
+    }
 
     /// @return whether any move was made.
     bool round()
@@ -106,6 +110,9 @@ private:
     {
         apply(change, mCover);
         mFiner.parent[move.child] = move.to;
+        std::vector<int32_t>& before = mChildren[std::size_t(move.from)];
+        before.erase(std::find(before.begin(), before.end(), move.child));
+        mChildren[std::size_t(move.to)].push_back(move.child);
         ++mMoved[move.child];
         for (const int32_t parent : {move.from, move.to}) {
             mBelow[parent] = unionOf(childrenOf(parent));
@@ -116,9 +123,8 @@ private:
     std::vector<const VoxelRegion*> childrenOf(int32_t parent, int32_t without = -1) const
     {
         std::vector<const VoxelRegion*> children;
-        for (std::size_t c = 0; c < mRegions.size(); ++c) {
-            if (mFiner.parent[c] != parent || int32_t(c) == without) continue;
-            children.push_back(&mRegions[c]);
+        for (const int32_t c : mChildren[std::size_t(parent)]) {
+            if (c != without) children.push_back(&mRegions[std::size_t(c)]);
         }
         return children;
     }
@@ -154,10 +160,11 @@ private:
         const VoxelRegion less = unionOf(childrenOf(move.from, move.child));
         const VoxelRegion more = unionOf(mBelow[move.to], mRegions[move.child]);
         std::vector<const VoxelRegion*> regions;
+        regions.reserve(mBelow.size());
         for (const VoxelRegion& region : mBelow) regions.push_back(&region);
         regions[move.from] = &less;
         regions[move.to] = &more;
-        const VoxelGoal goal(mMaker.object.level(0), regions);
+        const VoxelGoal goal(mMaker.object.level(0), std::move(regions));
         const PartFit fit(mCover, mMaker.object, goal, {mMaker.fit, 0, 0, mMaker.flat});
         CoverPart part = fit.around({move.from, move.to});
         const std::size_t to = part.indexOf(move.to);
@@ -179,9 +186,10 @@ private:
     TightLevel& mFiner;
     const std::vector<VoxelRegion>& mRegions;
     const LevelMaker& mMaker;
-    std::vector<VoxelRegion> mBelow; ///< regionsBelow() the balls
-    std::vector<int> mMoved;         ///< how often each child has
-    std::vector<Tried> mTried;       ///< of the round before
+    std::vector<VoxelRegion> mBelow;             ///< regionsBelow() the balls
+    std::vector<std::vector<int32_t>> mChildren; ///< of each ball, in no order
+    std::vector<int> mMoved;                     ///< how often each child has
+    std::vector<Tried> mTried;                   ///< of the round before
 };
 
 } // namespace

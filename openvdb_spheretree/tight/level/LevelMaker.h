@@ -57,7 +57,7 @@ struct LevelMaker {
     /// @return the level after the best of several searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
-    /// @return the cover with each ball placed anew until nothing changes; without those that no
+    /// @return the cover with each ball placed anew until nothing changes, or `sweeps` times; without those that no
     /// voxel needs if @a drop is given.
     /// @param spare  a cover, too: empty balls, and those that no voxel needs, move to places of these where
     ///               that gains something

@@ -44,13 +44,14 @@ std::vector<int32_t> parentsIn(const std::vector<ForestNode>& forest,
     const std::vector<ExactSphere>& coarserBalls)
 {
     const std::vector<int32_t> cut = cutOf(forest, coarser);
+    const BallGrid grid(coarserBalls);
     std::vector<int32_t> parents;
     for (const int32_t node : nodes) {
         int32_t ancestor = node;
         while (ancestor >= 0 && !isIn(forest[ancestor], coarser))
             ancestor = forest[ancestor].parent;
         parents.push_back(ancestor < 0
-                ? leastProtruding(forest[node].ball, coarserBalls)
+                ? leastProtruding(forest[node].ball, coarserBalls, grid)
                 : int32_t(std::lower_bound(cut.begin(), cut.end(), ancestor) - cut.begin()));
     }
     return parents;
@@ -156,6 +157,18 @@ int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>&
     return int32_t(best);
 }
 
+int32_t leastProtruding(
+    const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid)
+{
+    if (grid.size() == 0) return 0;
+    constexpr double kRounding = 1;
+    const double reach = protrusion(ball, level[std::size_t(anyNear(ball, level, grid))]);
+    const std::vector<int32_t> near = grid.near(ball, reach - 2 * ball.radius() + kRounding);
+    std::vector<ExactSphere> balls;
+    for (const int32_t i : near) balls.push_back(level[std::size_t(i)]);
+    return near[std::size_t(leastProtruding(ball, balls))];
+}
+
 int32_t anyNear(
     const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid)
 {
@@ -173,7 +186,7 @@ std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) {
         const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
-        levels[k].balls = ballsOfCut(forest, counts[k]);
+        for (const int32_t node : nodes) levels[k].balls.push_back(forest[std::size_t(node)].ball);
         if (nodes.size() == digital.size()) levels[k].digital = digital;
         if (k + 1 < counts.size()) {
             levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);

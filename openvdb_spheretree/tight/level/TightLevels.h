@@ -39,6 +39,9 @@ void adoptOrphans(TightLevel& finer, const std::vector<ExactSphere>& level);
 
 /// @return the ball of @a level out of which @a ball reaches least; empty ones do not count.
 int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>& level);
+/// The same, but it looks only at those that are near.
+int32_t leastProtruding(
+    const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid);
 /// @return the one of those of @a level that are nearest. For balls that no chain needs: it does not matter
 /// which, and levels may be large.
 int32_t anyNear(

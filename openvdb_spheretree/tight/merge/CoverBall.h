@@ -20,7 +20,6 @@ struct CoverBall {
     int32_t group = 0;
 
     bool empty() const { return ball.empty(); }
-    bool operator==(const CoverBall& o) const { return ball == o.ball && group == o.group; }
 };
 
 /// @return the balls, all in group 0.

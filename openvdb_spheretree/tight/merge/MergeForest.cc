@@ -65,11 +65,14 @@ private:
         return int(100 * (1 - std::pow(double(mLive) / mLeafBalls, kTimeOfMerging)));
     }
 
+    /// @return whether there are groups, and models that look at all balls, whatever their group.
+    bool needsAllGroups() const { return mGrids.size() > 1 && mModel.dependsOnOthers(); }
+
     /// The node is in the cuts of mLive balls and less.
     void addNode(const ExactSphere& ball, int32_t group)
     {
         mGrids[group].add(int32_t(mNodes.size()), ball);
-        if (mGrids.size() > 1) mAllGroups.add(int32_t(mNodes.size()), ball);
+        if (needsAllGroups()) mAllGroups.add(int32_t(mNodes.size()), ball);
         mGroup.push_back(group);
         mNodes.push_back({ball, -1, 1, mLive});
         mGone.push_back(0);
@@ -206,9 +209,10 @@ private:
             }
             if (mModel.dependsOnOthers()) markAround(c, kLock, mLocked);
             else mLocked[c.a] = mLocked[c.b] = mRound;
-            mModel.complete(c);
             taken.push_back(c);
         }
+        detail::parallelFor(
+            taken.size(), mInterrupter, [&](std::size_t i) { mModel.complete(taken[i]); });
         for (const MergeCandidate& waiting : aside) push(waiting);
         return taken;
     }
@@ -219,7 +223,7 @@ private:
         mNodes[node].first = mLive;
         mGone[node] = 1;
         mGrids[mGroup[node]].remove(node, mNodes[node].ball);
-        if (mGrids.size() > 1) mAllGroups.remove(node, mNodes[node].ball);
+        if (needsAllGroups()) mAllGroups.remove(node, mNodes[node].ball);
     }
 
     void doMerges(const std::vector<MergeCandidate>& taken)

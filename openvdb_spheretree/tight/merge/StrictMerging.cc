@@ -15,11 +15,10 @@ namespace {
 
 using openvdb::Coord;
 
-Held joined(const Held& a, const Held& b)
+Held joined(Held a, const Held& b)
 {
-    Held held(a);
-    held.insert(held.end(), b.begin(), b.end());
-    return held;
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
 }
 
 Held voxelBalls(const std::vector<Coord>& points)
@@ -42,10 +41,12 @@ Held extremeVoxels(const Held& held)
 
 /// @return the balls that reach furthest along 98 directions, which have components from -2 to 2. A
 /// ball that holds these nearly holds all.
-Held extremeBalls(const Held& held)
+/// @param held  what this gave for each of two sets
+/// @param all   how many balls both have; few are returned as they are
+Held extremeBalls(const Held& held, std::size_t all)
 {
     constexpr std::size_t kFew = 32;
-    if (held.size() <= kFew) return held;
+    if (all <= kFew) return held;
     std::vector<std::size_t> chosen;
     for (int direction = 0; direction < 125; ++direction) {
         const int u[3] = {direction / 25 - 2, direction / 5 % 5 - 2, direction % 5 - 2};
@@ -120,8 +121,11 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
         if (mVoxels) {
             mExtreme[m] = extremeVoxels(joined(mExtreme[c.a], mExtreme[c.b]));
         } else {
-            mHeld[m] = joined(mHeld[c.a], mHeld[c.b]);
-            mExtreme[m] = extremeBalls(mHeld[m]);
+            Held &some = mHeld[c.a], &others = mHeld[c.b]; // in no order
+            if (some.size() < others.size()) some.swap(others);
+            mHeld[m] = joined(std::move(some), others);
+            // What reaches furthest of both is what does of one of them.
+            mExtreme[m] = extremeBalls(joined(mExtreme[c.a], mExtreme[c.b]), mHeld[m].size());
         }
         for (const int32_t child : {c.a, c.b}) {
             Held().swap(mExtreme[child]);

@@ -46,6 +46,15 @@ std::size_t CoverPart::indexOf(int32_t id) const
     return std::size_t(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
+std::vector<int32_t> CoverPart::meeting(const FineBox& some, int32_t id) const
+{
+    std::vector<int32_t> found;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        if (ids[k] != id && FineBox(balls[k].ball).meets(some)) found.push_back(ids[k]);
+    }
+    return found;
+}
+
 CoverPart PartFit::around(const std::vector<int32_t>& ids) const
 {
     CoverPart part;

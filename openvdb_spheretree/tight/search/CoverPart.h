@@ -73,6 +73,8 @@ struct CoverPart {
 
     /// @return the place of a ball in the lists.
     std::size_t indexOf(int32_t id) const;
+    /// @return the other balls, beside @a id, whose boxes meet a box that does not reach out of the part.
+    std::vector<int32_t> meeting(const FineBox& some, int32_t id) const;
 };
 
 /// The balls of a part that are not what they were.

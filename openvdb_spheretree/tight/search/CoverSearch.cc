@@ -67,7 +67,7 @@ private:
     openvdb::util::NullInterrupter* mInterrupter;
 };
 
-/// Places every ball anew, the largest first, until nothing changes. A ball that no change came near
+/// Places every ball anew, the largest first, in sweeps until nothing changes. A ball that no change came near
 /// since it was placed stays.
 /// @param change  the change of the cost is added to it
 void placeAll(BallCover& cover, const PartFit& fit, double& change, SearchLoops& loops)
@@ -84,19 +84,18 @@ void placeAll(BallCover& cover, const PartFit& fit, double& change, SearchLoops&
         while (!left.empty()) {
             const std::vector<int32_t> ids = takeApart(left, cover);
             std::vector<CoverChange> changes(ids.size());
+            std::vector<std::vector<int32_t>> near(ids.size()); // that a change comes near
             loops.run(ids.size(), [&](std::size_t k) {
                 CoverPart part = fit.around({ids[k]});
                 fit.refit(part, part.indexOf(ids[k]));
                 changes[k] = fit.changeOf(part);
+                if (!changes[k].ids.empty()) near[k] = part.meeting(changes[k].box, ids[k]);
             });
             for (const int32_t id : ids) isStale[id] = 0;
-            for (const CoverChange& some : changes) {
-                apply(some, cover);
-                change += some.change;
-                if (some.ids.empty()) continue;
-                for (const int32_t id : cover.grid().meeting(some.box)) {
-                    if (id != some.ids.front()) isStale[id] = 1;
-                }
+            for (std::size_t k = 0; k < ids.size(); ++k) {
+                apply(changes[k], cover);
+                change += changes[k].change;
+                for (const int32_t id : near[k]) isStale[id] = 1;
             }
         }
     }
