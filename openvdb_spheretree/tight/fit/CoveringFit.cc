@@ -24,6 +24,15 @@ int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held)
     return apart + held.radiusSq + detail::ceilSqrtWide(product);
 }
 
+int64_t radiusSqToHold(const ExactSphere& ball, const std::vector<openvdb::Coord>& voxels)
+{
+    int64_t radiusSq = 0;
+    for (const openvdb::Coord& voxel : voxels) {
+        radiusSq = std::max(radiusSq, radiusSqToHold(ball, voxelBall(voxel)));
+    }
+    return radiusSq;
+}
+
 void CoveringFit::open(const SampledObject& object, const std::vector<openvdb::Coord>& targets,
     const std::vector<ExactSphere>& replaced, int samples)
 {

@@ -22,6 +22,8 @@ struct FittedBall {
 
 /// @return the smallest squared radius around the center of @a ball that holds @a held, a ball.
 int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held);
+/// @return the same for all these voxels.
+int64_t radiusSqToHold(const ExactSphere& ball, const std::vector<openvdb::Coord>& voxels);
 
 /// Owns the window of what costs, and all lists: reused for many fits, it allocates once.
 class CoveringFit {

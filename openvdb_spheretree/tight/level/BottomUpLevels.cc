@@ -2,6 +2,7 @@
 #include "BottomUpLevels.h"
 
 #include "ChildMoves.h"
+#include "LevelRegions.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
@@ -31,11 +32,7 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
         }
         int64_t best = -1;
         for (const int32_t b : grid.near(voxelBall(units[i].front()), 1)) {
-            int64_t farthest = 0;
-            for (const openvdb::Coord& p : units[i]) {
-                farthest = std::max(farthest, radiusSqToHold(balls[b], voxelBall(p)));
-            }
-            const int64_t depth = balls[b].radiusSq - farthest;
+            const int64_t depth = balls[b].radiusSq - radiusSqToHold(balls[b], units[i]);
             if (depth <= best) continue;
             best = depth;
             parents[i] = b;
@@ -86,7 +83,7 @@ std::vector<ExactSphere> fewerBalls(
 void placeAbove(TightLevel& level, TightLevel& finer, const std::vector<VoxelRegion>& regions,
     const LevelMaker& maker)
 {
-    const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
+    const auto below = regionsBelow(regions, finer.parent, level.balls.size(), maker);
     const VoxelGoal goal(maker.object.level(0), below);
     level.balls = ballsOf(maker.placed(eachInItsGroup(level.balls), goal, false));
     adoptOrphans(finer, level.balls);
@@ -109,9 +106,7 @@ TightLevel coarserLevel(
         moveChildren(level.balls, finer, regions, maker);
     }
     placeAbove(level, finer, regions, maker);
-    regions = regionsBelow(regions, finer.parent, level.balls.size(), maker.interrupter);
-    detail::parallelFor(regions.size(), maker.interrupter,
-        [&](std::size_t i) { regions[i] = clipped(regions[i], level.balls[i], object); });
+    regions = heldBelow(level.balls, regions, finer.parent, maker);
     return level;
 }
 

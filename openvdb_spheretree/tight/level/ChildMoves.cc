@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ChildMoves.h"
 
+#include "LevelRegions.h"
 #include "LevelWork.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/base/Stage.h>
@@ -50,7 +51,7 @@ public:
     Moves(std::vector<CoverBall> balls, TightLevel& finer, const std::vector<VoxelRegion>& regions,
         const LevelMaker& maker)
         : mCover(std::move(balls)), mFiner(finer), mRegions(regions), mMaker(maker),
-          mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker.interrupter)),
+          mBelow(regionsBelow(regions, finer.parent, mCover.size(), maker)),
           mChildren(mCover.size()), mMoved(regions.size(), 0)
     {
         for (std::size_t c = 0; c < regions.size(); ++c) {
@@ -193,18 +194,6 @@ private:
 };
 
 } // namespace
-
-std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
-    const std::vector<int32_t>& parents, std::size_t count,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    std::vector<std::vector<const VoxelRegion*>> children(count);
-    for (std::size_t i = 0; i < regions.size(); ++i) children[parents[i]].push_back(&regions[i]);
-    std::vector<VoxelRegion> below(count);
-    detail::parallelFor(
-        count, interrupter, [&](std::size_t p) { below[p] = unionOf(children[p]); });
-    return below;
-}
 
 void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)

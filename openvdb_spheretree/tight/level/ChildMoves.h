@@ -20,11 +20,6 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @return for each of @a count parents the union of its children's regions.
-std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
-    const std::vector<int32_t>& parents, std::size_t count,
-    openvdb::util::NullInterrupter* interrupter);
-
 /// @param balls    of the coarser level; together they hold what is in their children's regions
 /// @param finer    the children, whose parents may change
 /// @param regions  of the children

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FollowedLevels.h"
 
-#include "GroupedCover.h"
+#include "LevelRegions.h"
 #include "PlacedLevels.h"
 #include <openvdb_spheretree/base/AtomicExtremes.h>
 #include <openvdb_spheretree/base/Parallel.h>

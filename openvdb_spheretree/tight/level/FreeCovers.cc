@@ -24,7 +24,8 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
         const auto& [many, larger] = *mCovers.lower_bound(count);
         const bool isStart = many == mStart;
         const Next found = next(many, count, isStart, mMaker);
-        Cover made{isStart ? mergedStart(found) : merged(larger.balls, false, found.count),
+        Cover made{
+            isStart ? mergedStart(found) : mMaker.mergedCover(larger.balls, false, found.count),
             found.count > count};
         if (found.isPlaced) made.balls = placed(made.balls, made.isBetween);
         mCovers[found.count] = std::move(made);
@@ -49,7 +50,8 @@ FreeCovers::Next FreeCovers::next(
 std::vector<ExactSphere> FreeCovers::mergedStart(const Next& next) const
 {
     const FittedBalls few = next.dilated > 0 ? dilatedStart(next) : FittedBalls();
-    if (few.balls.empty()) return merged(mCovers.at(mStart).balls, mAreInside, next.count);
+    if (few.balls.empty())
+        return mMaker.mergedCover(mCovers.at(mStart).balls, mAreInside, next.count);
     return ballsOf(mMaker.merged(ungrouped(few.balls), few.points, false, next.count));
 }
 
@@ -64,13 +66,6 @@ FreeCovers::FittedBalls FreeCovers::dilatedStart(const Next& next) const
     few.points = powerCellPoints(dilated, voxels, mMaker.interrupter);
     few.balls = mMaker.fitted(dilated, few.points);
     return few;
-}
-
-std::vector<ExactSphere> FreeCovers::merged(
-    const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const
-{
-    const auto points = powerCellPoints(balls, mMaker.object.level(0), mMaker.interrupter);
-    return ballsOf(mMaker.merged(ungrouped(balls), points, areInside, count));
 }
 
 std::vector<ExactSphere> FreeCovers::placed(

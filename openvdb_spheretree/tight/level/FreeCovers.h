@@ -56,9 +56,6 @@ private:
     std::vector<ExactSphere> mergedStart(const Next& next) const;
     /// @return of the start's balls some, dilated and fitted to power cells; none if all would be left.
     FittedBalls dilatedStart(const Next& next) const;
-    /// Each ball has to hold its power cell.
-    std::vector<ExactSphere> merged(
-        const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;
     /// @param isBetween  they will be merged further
     std::vector<ExactSphere> placed(const std::vector<ExactSphere>& balls, bool isBetween) const;
 

@@ -50,18 +50,6 @@ std::vector<CellPart> partsOf(
 
 } // namespace
 
-std::vector<VoxelRegion> chainRegions(
-    const TightLevel& level, const std::vector<VoxelRegion>& above, const LevelMaker& maker)
-{
-    const SampleLevel& object = maker.object.level(0);
-    std::vector<VoxelRegion> regions(level.balls.size());
-    detail::parallelFor(regions.size(), maker.interrupter, [&](std::size_t i) {
-        regions[i] = above.empty() ? regionOf(level.balls[i], object)
-                                   : clipped(above[level.parent[i]], level.balls[i], object);
-    });
-    return regions;
-}
-
 GroupedCover dealtOut(const std::vector<ExactSphere>& balls, const TightLevel& coarser,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {

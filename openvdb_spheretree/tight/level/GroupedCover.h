@@ -18,11 +18,6 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @return for each ball of @a level the voxels that it and its ancestors hold.
-/// @param above  those of the next coarser level; empty if there is none
-std::vector<VoxelRegion> chainRegions(
-    const TightLevel& level, const std::vector<VoxelRegion>& above, const LevelMaker& maker);
-
 /// Balls with their groups, and what each is to hold: voxels in the ball and in its group's region, no
 /// voxel twice. A ball may be in several groups.
 struct GroupedCover {
@@ -32,7 +27,7 @@ struct GroupedCover {
 
 /// @param balls    together they hold the object
 /// @param coarser  the finished level
-/// @param regions  its chainRegions(): together the object
+/// @param regions  its chainRegions() (LevelRegions.h): together the object
 GroupedCover dealtOut(const std::vector<ExactSphere>& balls, const TightLevel& coarser,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker);
 

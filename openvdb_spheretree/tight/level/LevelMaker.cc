@@ -8,6 +8,7 @@
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
 #include <openvdb_spheretree/tight/merge/SlackMerging.h>
 #include <openvdb_spheretree/tight/merge/StrictMerging.h>
+#include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,13 @@ std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
     const detail::Step step(interrupter, LevelWork(*this).ofMerging(int64_t(balls.size()), count));
     return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
+}
+
+std::vector<ExactSphere> LevelMaker::mergedCover(
+    const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const
+{
+    const auto points = powerCellPoints(balls, object.level(0), interrupter);
+    return ballsOf(merged(ungrouped(balls), points, areInside, count));
 }
 
 std::vector<CoverBall> LevelMaker::mergedWithSlack(

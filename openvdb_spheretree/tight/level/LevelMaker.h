@@ -86,6 +86,10 @@ struct LevelMaker {
     /// @param regions  voxels of each ball; together the object
     std::vector<CoverBall> mergedWithSlack(
         const std::vector<CoverBall>& balls, std::vector<VoxelRegion> regions, int64_t count) const;
+    /// @param balls  that cover the object; each has to hold its power cell
+    /// @return the balls merged to @a count.
+    std::vector<ExactSphere> mergedCover(
+        const std::vector<ExactSphere>& balls, bool areInside, int64_t count) const;
     /// @return what the regions of the balls take, with the samples.
     WorkingMemory regionMemory(const std::vector<ExactSphere>& balls) const;
     /// @throw openvdb::ValueError if that is more than `memory`

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlacedLevels.h"
 
-#include "ChildMoves.h"
 #include "GroupedCover.h"
+#include "LevelRegions.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tight/search/CoverGoal.h>
@@ -78,7 +78,7 @@ private:
         TightLevel &level = mLevels[k], &finer = mLevels[k - 1];
         const std::size_t balls = level.balls.size();
         mChains[k].clear();
-        auto below = regionsBelow(mRegions, finer.parent, balls, mMaker.interrupter);
+        auto below = regionsBelow(mRegions, finer.parent, balls, mMaker);
         if (!level.parent.empty()) {
             detail::parallelFor(balls, mMaker.interrupter, [&](std::size_t i) {
                 below[i] = intersectionOf(below[i], mChains[k + 1][level.parent[i]]);
@@ -87,11 +87,7 @@ private:
         const VoxelGoal goal(mVoxels, below);
         level.balls = ballsOf(mMaker.placed(eachInItsGroup(level.balls), goal, false));
         adoptOrphans(finer, level.balls);
-        mRegions = regionsBelow(mRegions, finer.parent, balls, mMaker.interrupter);
-        detail::parallelFor(balls, mMaker.interrupter, [&](std::size_t i) {
-            const ExactSphere& ball = level.balls[i];
-            mRegions[i] = ball.empty() ? VoxelRegion() : clipped(mRegions[i], ball, mVoxels);
-        });
+        mRegions = heldBelow(level.balls, mRegions, finer.parent, mMaker);
     }
 
     std::vector<TightLevel> mLevels;

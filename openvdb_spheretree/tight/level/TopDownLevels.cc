@@ -2,10 +2,10 @@
 #include "TopDownLevels.h"
 
 #include "GroupedCover.h"
+#include "LevelRegions.h"
 #include "LevelWork.h"
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
-#include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
 #include <limits>
@@ -157,9 +157,7 @@ private:
 
     std::vector<ExactSphere> mergedClusters(int64_t count, int64_t times) const
     {
-        const auto many = clusters(count * times, 1);
-        const auto points = powerCellPoints(many, mVoxels, mMaker.interrupter);
-        return ballsOf(mMaker.merged(ungrouped(many), points, false, count));
+        return mMaker.mergedCover(clusters(count * times, 1), false, count);
     }
 
     /// @return a start within the groups of the level above.

@@ -27,11 +27,7 @@ CoverChange tryChange(const BallCover& cover, const PartFit& fit, uint64_t numbe
     } else { // somewhere else, and as large as it must be there
         const double step = std::max(1.0, ball.radius() * 0.4 * dice.uniform());
         disturbed = shifted(ball, step, fit.effort().flat, dice);
-        disturbed.radiusSq = 0;
-        for (const openvdb::Coord& p : fit.uncoveredWithout(part, i)) {
-            disturbed.radiusSq =
-                std::max(disturbed.radiusSq, radiusSqToHold(disturbed, voxelBall(p)));
-        }
+        disturbed.radiusSq = radiusSqToHold(disturbed, fit.uncoveredWithout(part, i));
     }
     if (!part.box.contains(FineBox(disturbed))) return {};
     fit.replace(part, i, disturbed);

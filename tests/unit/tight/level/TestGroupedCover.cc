@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <openvdb_spheretree/tight/level/GroupedCover.h>
+#include <openvdb_spheretree/tight/level/LevelRegions.h>
 
 #include "support/MergedLeaves.h"
 
