@@ -17,6 +17,7 @@
 #include <openvdb/tools/VolumeToSpheres.h>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -66,6 +67,8 @@ TEST(ReadmeFigures, InnerSpheresCoverMoreOfADodecahedronThanThoseOfOpenVDB)
             << k;
         std::vector<openvdb::Vec4s> spheres;
         const int count = tree.levels[k].size();
+        // Its threads share the place of the next sphere without a lock: with more, each run finds others.
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         openvdb::tools::fillWithSpheres(*levelSet, spheres, openvdb::Vec2i(1, count),
             /*overlapping=*/true, /*minRadius=*/0.5f, std::numeric_limits<float>::max(),
             /*isovalue=*/0.0f, /*instanceCount=*/100000);
