@@ -261,7 +261,7 @@ private:
     std::size_t mNeighbours;
     openvdb::util::NullInterrupter* mInterrupter;
     std::vector<BallGrid> mGrids; ///< of the groups: living nodes
-    BallGrid mAllGroups;          ///< of all together, if there is more than one
+    BallGrid mAllGroups;          ///< of all together, where needsAllGroups()
     std::vector<ForestNode> mNodes;
     std::vector<int32_t> mGroup;
     std::vector<char> mGone;

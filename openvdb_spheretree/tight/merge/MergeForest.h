@@ -51,8 +51,7 @@ public:
     /// Enlarges the ball of a merge, just before that is done, if evaluate() made it too small; thread-safe.
     virtual void complete(MergeCandidate&) const {}
     /// Does merges, no two of the same node: the i-th becomes node `node + i`. Where costs depend on other balls, none is
-    /// near another one. Pairs without
-    /// a ball come in a call of their own and become no nodes.
+    /// near another one. Pairs without a ball come in a call of their own and become no nodes.
     virtual void merge(const std::vector<MergeCandidate>& merges, int32_t node) = 0;
     /// @return whether what a merge costs depends on the balls around it.
     virtual bool dependsOnOthers() const = 0;

@@ -106,6 +106,23 @@ TEST(TightLevels, AreStuckOutOfLeastByBallsThatAreThere)
     EXPECT_EQ(leastProtruding({{200, 0, 0}, 100}, {small, large, large}), 1) << "the first";
 }
 
+TEST(TightLevels, TheLeastProtrudingBallIsFoundAmongThoseNear)
+{
+    Random random(3);
+    for (int round = 0; round < 60; ++round) {
+        const int spread = 20 << (round % 3 * 3); // far apart, too
+        std::vector<ExactSphere> level = randomBalls(40, random, -spread, spread, 1 << round % 6);
+        level.push_back(level[5]); // two are equal
+        level[7] = ExactSphere();  // one is empty
+        const BallGrid grid(level);
+        for (int i = 0; i < 20; ++i) {
+            const ExactSphere ball = randomBall(random, -2 * spread, 2 * spread, 1 << i % 5);
+            ASSERT_EQ(leastProtruding(ball, level, grid), leastProtruding(ball, level)) << round;
+        }
+    }
+    EXPECT_EQ(leastProtruding({{0, 0, 0}, 9}, {ExactSphere()}, BallGrid()), 0);
+}
+
 TEST(TightLevels, HaveTheirAncestorsAsParents)
 {
     Random random(2);
