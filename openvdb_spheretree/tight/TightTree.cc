@@ -48,14 +48,11 @@ std::unique_ptr<MergeModel> modelFor(
     const auto interrupter = maker.interrupter;
     const SampleLevel& voxels = object.level(0);
     if (options.cover == Cover::Balls) {
-        HeldByLeafBalls held = heldBalls(leafBalls);
-        held.areInside = areInside;
-        return std::make_unique<StrictMerging>(
-            object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
+        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls),
+            heldBalls(leafBalls, areInside), maker.fit, maker.flat, interrupter);
     }
     if (options.quality == Quality::Fast) {
-        HeldByLeafBalls held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter));
-        held.areInside = areInside;
+        auto held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter), areInside);
         return std::make_unique<StrictMerging>(
             object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
     }

@@ -14,7 +14,7 @@ MergedLeaves::MergedLeaves(const Voxels& some, bool flat, const FitEffort& effor
     using namespace openvdb_spheretree::tight;
     leaves = fineBalls(CoreStages(*maskOf(voxels)).balls);
     SlackMerging model(object, ungrouped(leaves), regionsOf(leaves, object.level(0), nullptr),
-        effort, flat, nullptr);
+        effort, flat, nullptr, true);
     forest = mergeToRoots(model, 6, nullptr);
 }
 

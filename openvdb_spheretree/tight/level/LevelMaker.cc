@@ -107,9 +107,7 @@ std::vector<ExactSphere> LevelMaker::fitted(
 std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     const HeldPoints& points, bool areInside, int64_t count) const
 {
-    HeldByLeafBalls held = heldVoxels(points);
-    held.areInside = areInside;
-    StrictMerging model(object, balls, std::move(held), merging, flat, interrupter);
+    StrictMerging model(object, balls, heldVoxels(points, areInside), merging, flat, interrupter);
     const detail::Step step(interrupter, LevelWork(*this).ofMerging(int64_t(balls.size()), count));
     return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
 }

@@ -90,6 +90,15 @@ std::vector<int32_t> appendLevel(
     return ids;
 }
 
+/// @return the same as leastProtruding() among those of @a level that are named; 0 if none is.
+int32_t leastAmong(
+    const std::vector<int32_t>& ids, const ExactSphere& ball, const std::vector<ExactSphere>& level)
+{
+    std::vector<ExactSphere> balls;
+    for (const int32_t i : ids) balls.push_back(level[std::size_t(i)]);
+    return ids.empty() ? 0 : ids[std::size_t(leastProtruding(ball, balls))];
+}
+
 } // namespace
 
 std::vector<ExactSphere> allBalls(const std::vector<TightLevel>& levels)
@@ -163,10 +172,7 @@ int32_t leastProtruding(
     if (grid.size() == 0) return 0;
     constexpr double kRounding = 1;
     const double reach = protrusion(ball, level[std::size_t(anyNear(ball, level, grid))]);
-    const std::vector<int32_t> near = grid.near(ball, reach - 2 * ball.radius() + kRounding);
-    std::vector<ExactSphere> balls;
-    for (const int32_t i : near) balls.push_back(level[std::size_t(i)]);
-    return near[std::size_t(leastProtruding(ball, balls))];
+    return leastAmong(grid.near(ball, reach - 2 * ball.radius() + kRounding), ball, level);
 }
 
 int32_t anyNear(
@@ -174,10 +180,7 @@ int32_t anyNear(
 {
     constexpr std::size_t kSome = 8;
     constexpr int32_t kNone = -1;
-    const std::vector<int32_t> near = grid.nearest(kNone, ball, kSome);
-    std::vector<ExactSphere> balls;
-    for (const int32_t i : near) balls.push_back(level[i]);
-    return near.empty() ? 0 : near[leastProtruding(ball, balls)];
+    return leastAmong(grid.nearest(kNone, ball, kSome), ball, level);
 }
 
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
@@ -186,7 +189,7 @@ std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     std::vector<TightLevel> levels(counts.size());
     for (std::size_t k = counts.size(); k-- > 0;) {
         const std::vector<int32_t> nodes = cutOf(forest, counts[k]);
-        for (const int32_t node : nodes) levels[k].balls.push_back(forest[std::size_t(node)].ball);
+        levels[k].balls = ballsOfCut(forest, counts[k]);
         if (nodes.size() == digital.size()) levels[k].digital = digital;
         if (k + 1 < counts.size()) {
             levels[k].parent = parentsIn(forest, nodes, counts[k + 1], levels[k + 1].balls);

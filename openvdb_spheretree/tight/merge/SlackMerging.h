@@ -34,7 +34,7 @@ public:
     /// @param areInside  the leaf balls have no voxel outside the object
     SlackMerging(const SampledObject& object, const std::vector<CoverBall>& leafBalls,
         std::vector<VoxelRegion> regions, const FitEffort& effort, bool flat,
-        openvdb::util::NullInterrupter* interrupter, bool areInside = true);
+        openvdb::util::NullInterrupter* interrupter, bool areInside);
 
     std::vector<ExactSphere> leafBalls() const override
     {

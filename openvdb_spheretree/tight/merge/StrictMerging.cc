@@ -138,18 +138,18 @@ void StrictMerging::merge(const std::vector<MergeCandidate>& merges, int32_t nod
     }
 }
 
-HeldByLeafBalls heldVoxels(const std::vector<std::vector<Coord>>& points)
+HeldByLeafBalls heldVoxels(const std::vector<std::vector<Coord>>& points, bool areInside)
 {
     std::vector<Held> held;
     for (const std::vector<Coord>& some : points) held.push_back(voxelBalls(some));
-    return {std::move(held), true, true};
+    return {std::move(held), true, areInside};
 }
 
-HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls)
+HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls, bool areInside)
 {
     std::vector<Held> held;
     for (const ExactSphere& ball : leafBalls) held.push_back({ball});
-    return {std::move(held), false, true};
+    return {std::move(held), false, areInside};
 }
 
 } // namespace openvdb_spheretree::tight

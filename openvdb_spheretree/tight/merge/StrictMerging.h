@@ -28,8 +28,8 @@ using Held = std::vector<ExactSphere>;
 /// What each leaf ball holds.
 struct HeldByLeafBalls {
     std::vector<Held> held;
-    bool areVoxels;        ///< then only the corners of their hull matter
-    bool areInside = true; ///< the leaf balls have no voxel outside the object
+    bool areVoxels; ///< then only the corners of their hull matter
+    bool areInside; ///< the leaf balls have no voxel outside the object
 };
 
 class StrictMerging : public MergeModel {
@@ -60,9 +60,10 @@ private:
     std::vector<double> mCost;  ///< outside voxels in a node's ball
 };
 
-/// @param points  extreme points of each leaf ball's power cell
-HeldByLeafBalls heldVoxels(const std::vector<std::vector<openvdb::Coord>>& points);
+/// @param points     extreme points of each leaf ball's power cell
+/// @param areInside  as of HeldByLeafBalls
+HeldByLeafBalls heldVoxels(const std::vector<std::vector<openvdb::Coord>>& points, bool areInside);
 /// @return each leaf ball itself.
-HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls);
+HeldByLeafBalls heldBalls(const std::vector<ExactSphere>& leafBalls, bool areInside);
 
 } // namespace openvdb_spheretree::tight

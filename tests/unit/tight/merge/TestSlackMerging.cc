@@ -36,7 +36,7 @@ public:
     WatchedMerging(const Voxels& voxels, const std::vector<ExactSphere>& leaves, bool flat)
         : mVoxels(voxels), mObject(sampled(voxels)),
           mModel(mObject, ungrouped(leaves), regionsOf(leaves, mObject.level(0), nullptr), kEffort,
-              flat, nullptr),
+              flat, nullptr, true),
           mLeafCount(int32_t(leaves.size())), mFlat(flat)
     {
         for (const ExactSphere& leaf : leaves) {

@@ -97,7 +97,7 @@ TEST(StrictMerging, HoldsTheVoxelsOfAllCellsBelow)
     for (const RandomObject& object : objectsNoWiderThan(15, 500, 540, 9)) {
         const auto leaves = medialLeaves(object.voxels);
         const auto cells = powerCellPoints(leaves, sampled(object.voxels).level(0), nullptr);
-        WatchedMerging model(object.voxels, leaves, heldVoxels(cells));
+        WatchedMerging model(object.voxels, leaves, heldVoxels(cells, true));
         ASSERT_NO_FATAL_FAILURE(expectSound(model, object.name));
     }
 }
@@ -108,7 +108,7 @@ TEST(StrictMerging, HoldsTheLeafBallsBelow)
     std::size_t most = 0;
     for (const RandomObject& object : objectsNoWiderThan(15, 540, 580, 10)) {
         const auto leaves = medialLeaves(object.voxels);
-        WatchedMerging model(object.voxels, leaves, heldBalls(leaves));
+        WatchedMerging model(object.voxels, leaves, heldBalls(leaves, true));
         ASSERT_NO_FATAL_FAILURE(expectSound(model, object.name));
         most = std::max(most, leaves.size());
     }
@@ -126,7 +126,7 @@ TEST(StrictMerging, HoldsLeafBallsThatWereNotLookedAtWhileABallWasSought)
     std::vector<ExactSphere> leaves;
     for (const Coord& v : voxels) leaves.push_back(voxelBall(v));
     sortVoxels(voxels);
-    WatchedMerging model(voxels, leaves, heldBalls(leaves), false, {false, 0, 1, false, 4});
+    WatchedMerging model(voxels, leaves, heldBalls(leaves, true), false, {false, 0, 1, false, 4});
     model.leaveOutCosts();
     ASSERT_NO_FATAL_FAILURE(expectSound(model, "star"));
 }
@@ -138,11 +138,11 @@ TEST(StrictMerging, CountsWhatLeavesHaveOutsideTheObject)
         const Voxels voxels = shapes::noise(Coord(8, 9, 7), 0.4, random);
         const auto leaves = randomBalls(random.between(2, 30), random, 0, 8, 3);
         HeldByLeafBalls held =
-            heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr));
+            heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr), true);
         held.areInside = false;
         WatchedMerging model(voxels, leaves, held);
         ASSERT_NO_FATAL_FAILURE(expectSound(model, "with cells"));
-        held = heldBalls(leaves);
+        held = heldBalls(leaves, true);
         EXPECT_TRUE(held.areInside);
         held.areInside = false;
         WatchedMerging whole(voxels, leaves, held);
@@ -154,7 +154,7 @@ TEST(StrictMerging, OfNodesWithoutCellsIsOneOfThem)
 {
     const Voxels voxels = shapes::box(Coord(3));
     const ExactSphere a{{0, 0, 0}, 400}, b{{99, 0, 0}, 500};
-    HeldByLeafBalls held = heldVoxels({{}, {}});
+    HeldByLeafBalls held = heldVoxels({{}, {}}, true);
     held.areInside = false;
     WatchedMerging model(voxels, {a, b}, held);
     const auto forest = mergeToRoots(model, 6, nullptr);
@@ -169,8 +169,8 @@ TEST(StrictMerging, KeepsFlatObjectsInTheirPlane)
             translated(shapes::noise(Coord(10, 9, 1), 0.7, random), Coord(-3, 5, turn));
         const auto leaves = medialLeaves(voxels, 2);
         const auto held = turn % 2
-            ? heldBalls(leaves)
-            : heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr));
+            ? heldBalls(leaves, true)
+            : heldVoxels(powerCellPoints(leaves, sampled(voxels).level(0), nullptr), true);
         WatchedMerging model(voxels, leaves, held, true);
         model.leaveOutCosts();
         for (const ForestNode& node : mergeToRoots(model, 6, nullptr)) {
