@@ -40,6 +40,13 @@ inline bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin)
     return BoxReach(ball, openvdb::CoordBBox::createCube(origin, kLeafDim)).meets(ball);
 }
 
+/// @return the power of the middle of a box to a ball, negated: the larger, the deeper it is in the ball.
+double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box);
+
+/// @return whether every point of the box is deeper in @a ball than in @a other. So what @a other holds of the
+/// box, @a ball holds as well.
+bool hasMorePower(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box);
+
 /// @return the smallest box of voxels that holds all voxels of @a ball; CoordBBox() if it has none.
 openvdb::CoordBBox ballBox(const ExactSphere& ball);
 

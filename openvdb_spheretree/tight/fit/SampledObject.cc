@@ -46,6 +46,17 @@ SampleLevel coarser(const SampleLevel& fine)
     return SampleLevel(std::move(origins), std::move(masks));
 }
 
+SampleLevel levelOf(const LeafLayout& object)
+{
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    for (uint32_t leaf = 0; leaf < object.leafCount(); ++leaf) {
+        origins.push_back(object.origin(leaf));
+        masks.push_back(object.mask(leaf));
+    }
+    return SampleLevel(std::move(origins), std::move(masks));
+}
+
 } // namespace
 
 SampleLevel::SampleLevel(std::vector<Coord> origins, std::vector<LeafMask> masks)
@@ -77,15 +88,11 @@ std::size_t SampleLevel::firstLeaf(std::size_t column, int32_t z) const
     return std::size_t(std::lower_bound(begin, end, z, below) - mOrigins.begin());
 }
 
-SampledObject::SampledObject(const LeafLayout& object)
+SampledObject::SampledObject(const LeafLayout& object) : SampledObject(levelOf(object)) {}
+
+SampledObject::SampledObject(SampleLevel finest)
 {
-    std::vector<Coord> origins;
-    std::vector<LeafMask> masks;
-    for (uint32_t leaf = 0; leaf < object.leafCount(); ++leaf) {
-        origins.push_back(object.origin(leaf));
-        masks.push_back(object.mask(leaf));
-    }
-    mLevels.emplace_back(std::move(origins), std::move(masks));
+    mLevels.push_back(std::move(finest));
     constexpr int kMaxLevels = 32; // coordinates have 32 bits
     while (mLevels.back().leafCount() > 0 && levels() < kMaxLevels) {
         mLevels.push_back(coarser(mLevels.back()));

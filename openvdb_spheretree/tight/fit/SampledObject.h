@@ -68,6 +68,7 @@ public:
     /// Of an object without voxels.
     SampledObject() : mLevels(1, SampleLevel({}, {})) {}
     explicit SampledObject(const LeafLayout& object);
+    explicit SampledObject(SampleLevel finest);
 
     /// @param k  0 or more; levels beyond the last one have no samples
     const SampleLevel& level(int k) const

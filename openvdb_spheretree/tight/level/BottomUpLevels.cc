@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BottomUpLevels.h"
 
+#include "CarriedLevels.h"
 #include "ChildMoves.h"
 #include "LevelRegions.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/tight/fit/BallGrid.h>
 #include <openvdb_spheretree/tight/fit/CoveringFit.h>
-#include <openvdb_spheretree/tight/fit/ExtremePoints.h>
+#include <openvdb_spheretree/tight/region/HalvedObject.h>
 #include <openvdb_spheretree/tight/region/PowerCells.h>
 
 #include <algorithm>
@@ -42,41 +43,67 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
     return parents;
 }
 
-/// @return extreme points of the units of each ball.
-HeldPoints pointsOf(const Units& units, const std::vector<int32_t>& owner, std::size_t balls,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    HeldPoints points(balls);
-    for (std::size_t i = 0; i < units.size(); ++i) {
-        auto& all = points[owner[i]];
-        all.insert(all.end(), units[i].begin(), units[i].end());
-    }
-    detail::parallelFor(balls, interrupter, [&](std::size_t b) { dropInnerPoints(points[b]); });
-    return points;
-}
-
-/// @return at most @a count balls, each unit in one of them: the finer balls merged and placed anew by
-/// turns.
+/// @return at most @a count balls, each unit in one of them: the finer balls merged, and placed anew.
 std::vector<ExactSphere> fewerBalls(
     const TightLevel& finer, const Units& units, int64_t count, const LevelMaker& maker)
 {
     const UnitGoal goal(units);
-    std::vector<ExactSphere> balls = finer.balls;
-    HeldPoints points = units;
-    bool areInside = !finer.digital.empty();
-    for (auto many = int64_t(balls.size()); many > count;) {
-        // Leaf balls hold little each: they are merged at once to about what is asked for.
-        const int64_t first = maker.firstTowards(count);
-        many = areInside && first < many ? first : halvedTowards(many, count);
-        const auto merged = maker.merged(ungrouped(balls), points, areInside, many);
-        balls =
-            ballsOf(many > count ? maker.placedBetween(merged, goal) : maker.placed(merged, goal));
-        const auto owner = parentsOf(units, finer.balls, balls, maker.interrupter);
-        points = pointsOf(units, owner, balls.size(), maker.interrupter);
-        areInside = false;
+    const bool areInside = !finer.digital.empty();
+    const auto balls =
+        maker.placed(maker.merged(ungrouped(finer.balls), units, areInside, count), goal);
+    if (!maker.searchesLevelOf(balls.size())) return ballsOf(balls);
+    return ballsOf(withoutEmpty(maker.improve(balls, ungrouped(finer.balls), goal)));
+}
+
+/// Decides which balls a level has, and which of them each finer ball hangs below.
+TightLevel parentLevel(TightLevel& finer, const Units& units,
+    const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    TightLevel level;
+    level.balls = fewerBalls(finer, units, count, maker);
+    finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
+    dropChildless(level, finer);
+    if (maker.searchesLevelOf(level.balls.size())) {
+        moveChildren(level.balls, finer, regions, maker);
     }
-    if (!maker.searchesLevelOf(balls.size())) return balls;
-    return ballsOf(withoutEmpty(maker.improve(ungrouped(balls), ungrouped(finer.balls), goal)));
+    return level;
+}
+
+/// Decides that at half the resolution, or at less. Each ball then grows until it holds the units of its children.
+TightLevel parentLevelOfHalved(TightLevel& finer, const Units& units,
+    const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    const HalvedObject halved(maker.object.level(0), maker.flat);
+    std::vector<VoxelRegion> halvedRegions(regions.size());
+    detail::parallelFor(regions.size(), maker.interrupter,
+        [&](std::size_t i) { halvedRegions[i] = halved.regionOf(regions[i]); });
+    const HeldPoints held =
+        extremePoints(halvedRegions, halved.object().level(0), maker.interrupter);
+    TightLevel halvedFiner;
+    for (std::size_t i = 0; i < finer.balls.size(); ++i) {
+        ExactSphere& ball = halvedFiner.balls.emplace_back(halved.centerOf(finer.balls[i]));
+        ball.radiusSq = radiusSqToHold(ball, held[i]);
+    }
+    TightLevel level =
+        coarserLevel(halvedFiner, halvedRegions, count, maker.forObject(halved.object()));
+    finer.parent = halvedFiner.parent;
+    for (ExactSphere& ball : level.balls) {
+        ball = lifted(ball, halved.step());
+        ball.radiusSq = 0;
+    }
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        ExactSphere& parent = level.balls[std::size_t(finer.parent[i])];
+        parent.radiusSq = std::max(parent.radiusSq, radiusSqToHold(parent, units[i]));
+    }
+    return level;
+}
+
+/// @return whether balls of a level are still large at half the resolution.
+bool areLarge(int64_t count, const LevelMaker& maker)
+{
+    // Only then there is much to decide: merging costs as much at any resolution.
+    if (!maker.searchesLevelOf(std::size_t(count))) return false;
+    return maker.object.level(0).leafCount() > std::size_t(count) * kLeavesOfLargeBall;
 }
 
 /// Places the balls of a level anew for their children's regions alone.
@@ -98,13 +125,9 @@ TightLevel coarserLevel(
     const SampleLevel& object = maker.object.level(0);
     const Units units = extremePoints(
         powerCells(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
-    TightLevel level;
-    level.balls = fewerBalls(finer, units, count, maker);
-    finer.parent = parentsOf(units, finer.balls, level.balls, maker.interrupter);
-    dropChildless(level, finer);
-    if (maker.searchesLevelOf(level.balls.size())) {
-        moveChildren(level.balls, finer, regions, maker);
-    }
+    TightLevel level = areLarge(count, maker)
+        ? parentLevelOfHalved(finer, units, regions, count, maker)
+        : parentLevel(finer, units, regions, count, maker);
     placeAbove(level, finer, regions, maker);
     regions = heldBelow(level.balls, regions, finer.parent, maker);
     return level;

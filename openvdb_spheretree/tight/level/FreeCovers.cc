@@ -41,7 +41,9 @@ FreeCovers::Next FreeCovers::next(
     // Of the balls of the start, each holds little: they are merged at once to about what is asked for,
     // or to so many.
     constexpr int64_t kFirst = 512;
-    const int64_t first = std::max(maker.firstTowards(count), kFirst);
+    const bool areMany = isStart && maker.dilatedFor(many, std::max(count, kFirst)) > 0;
+    const bool isPlacedOnTheWay = maker.placesStart && !areMany;
+    const int64_t first = std::max(isPlacedOnTheWay ? count + count / 2 : count, kFirst);
     const int64_t next = isStart && first < many ? first : halvedTowards(many, count);
     return {next, maker.placesStart || !isStart || next <= kFirst,
         isStart ? maker.dilatedFor(many, next) : 0};

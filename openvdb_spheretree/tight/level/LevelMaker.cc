@@ -107,7 +107,9 @@ std::vector<ExactSphere> LevelMaker::fitted(
 std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     const HeldPoints& points, bool areInside, int64_t count) const
 {
-    StrictMerging model(object, balls, heldVoxels(points, areInside), merging, flat, interrupter);
+    FitEffort effort = merging;
+    if (count <= kFewBalls) effort.diagonals = true; // so few merges take little time
+    StrictMerging model(object, balls, heldVoxels(points, areInside), effort, flat, interrupter);
     const detail::Step step(interrupter, LevelWork(*this).ofMerging(int64_t(balls.size()), count));
     return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
 }

@@ -64,13 +64,13 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
     double work = 0;
     for (std::size_t k = 1; k < counts.size(); ++k) {
         const int64_t finer = counts[k - 1], count = counts[k];
-        work += ofMerging(finer, count) + ofPlacing(count); // the second: below fixed parents
-        for (int64_t many = finer; many > count;) {
-            many = halvedTowards(many, count);
-            work += ofPlacing(many, many > count);
-        }
+        work += ofMerging(finer, count) + 2 * ofPlacing(count); // once more for the children
         work += ofSearches(count);
-        if (mMaker.searchesLevelOf(std::size_t(count))) work += ofMoves(finer);
+        // Those of large balls are decided at less resolution.
+        const double leaves = std::min(mLeaves, double(kLeavesOfLargeBall) * double(count));
+        if (mMaker.searchesLevelOf(std::size_t(count))) {
+            work += LevelWork(mMaker, std::size_t(leaves)).ofMoves(finer);
+        }
     }
     return work;
 }

@@ -22,21 +22,6 @@ struct CellPart {
     LeafMask mask;
 };
 
-/// @return whether the power of @a ball is larger than that of @a other in all of the box. The
-/// difference is linear, so along each axis it is smallest at one of the ends.
-bool dominates(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
-{
-    int64_t least = ball.radiusSq - other.radiusSq;
-    for (int a = 0; a < 3; ++a) {
-        const auto gain = [&](int64_t at) {
-            const int64_t mine = kFine * at - ball.center[a], theirs = kFine * at - other.center[a];
-            return theirs * theirs - mine * mine;
-        };
-        least += std::min(gain(box.min()[a]), gain(box.max()[a]));
-    }
-    return least > 0;
-}
-
 /// @return a filter that drops the balls with less power, in all of a box, than the one with the most
 /// power in its middle.
 BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
@@ -46,19 +31,14 @@ BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
         int32_t strongest = -1;
         double most = 0;
         for (const int32_t ball : from) {
-            double power = double(balls[ball].radiusSq); // in the middle of the box
-            for (int a = 0; a < 3; ++a) {
-                const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
-                const double d = 0.5 * double(twice) - double(balls[ball].center[a]);
-                power -= d * d;
-            }
+            const double power = powerInMiddle(balls[ball], box);
             if (strongest >= 0 && power <= most) continue;
             strongest = ball;
             most = power;
         }
         for (const int32_t ball : from) {
             if (!BoxReach(balls[ball], box).meets(balls[ball])) continue;
-            if (!dominates(balls[strongest], balls[ball], box)) to.push_back(ball);
+            if (!hasMorePower(balls[strongest], balls[ball], box)) to.push_back(ball);
         }
     };
 }

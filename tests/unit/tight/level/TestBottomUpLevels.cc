@@ -54,7 +54,7 @@ TEST(BottomUpLevels, OfAllLeafBallsKeepTheseAndTheirChains)
 {
     Random random(2);
     int64_t merging = 0, found = 0;
-    for (const int64_t searchedUpTo : {0, 1000}) {
+    for (const int64_t searchedUpTo : {0, 1000, 0, 1000, 0, 1000, 0, 1000}) {
         MergedLeaves merged(shapes::noise(Coord(9, 7, 6), 0.4, random));
         merged.maker.searchedUpTo = searchedUpTo;
         const TightLevel leaves = merged.levels({int64_t(merged.leaves.size())}).front();
@@ -72,6 +72,26 @@ TEST(BottomUpLevels, OfAllLeafBallsKeepTheseAndTheirChains)
         }
     }
     EXPECT_LT(found, merging);
+}
+
+/// Their voxels lie far apart, so the object has many leaf nodes for each ball.
+TEST(BottomUpLevels, OfLargeBallsAreDecidedAtHalfTheResolutionAndKeepChains)
+{
+    Random random(3);
+    for (const bool flat : {false, true}) {
+        Voxels voxels = shapes::noise(flat ? Coord(25, 20, 1) : Coord(12, 10, 9), 0.4, random);
+        for (Coord& v : voxels) v = Coord(8 * v[0], 8 * v[1] + v[0] % 3, flat ? 0 : 8 * v[2]);
+        sortVoxels(voxels);
+        MergedLeaves merged(voxels, flat);
+        merged.maker.searchedUpTo = 1000;
+        merged.maker.trialsPerBall = 2;
+        const TightLevel finest = merged.levels({30}).front();
+        const std::vector<int64_t> counts{int64_t(finest.balls.size()), 2, 1};
+        ASSERT_GT(merged.object.level(0).leafCount(), 64 * std::size_t(counts[1]));
+        const auto levels = bottomUpLevels(finest, counts, merged.maker);
+        ASSERT_EQ(levels.size(), counts.size());
+        expectChains(levels, merged.voxels);
+    }
 }
 
 } // namespace
