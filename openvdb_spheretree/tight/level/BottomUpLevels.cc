@@ -43,15 +43,17 @@ std::vector<int32_t> parentsOf(const Units& units, const std::vector<ExactSphere
     return parents;
 }
 
-/// @return at most @a count balls, each unit in one of them: the finer balls merged, and placed anew.
+/// @return at most @a count balls, each unit in one of them: the finer balls merged, and searched.
 std::vector<ExactSphere> fewerBalls(
     const TightLevel& finer, const Units& units, int64_t count, const LevelMaker& maker)
 {
-    const UnitGoal goal(units);
     const bool areInside = !finer.digital.empty();
-    const auto balls =
-        maker.placed(maker.merged(ungrouped(finer.balls), units, areInside, count), goal);
-    if (!maker.searchesLevelOf(balls.size())) return ballsOf(balls);
+    auto balls = maker.merged(ungrouped(finer.balls), units, areInside, count);
+    const bool isSearched = maker.searchesLevelOf(std::size_t(count));
+    if (count > kFewBalls && !isSearched) return ballsOf(balls); // of many, placing gains nothing
+    const UnitGoal goal(units);
+    balls = maker.placed(balls, goal);
+    if (!isSearched) return ballsOf(balls);
     return ballsOf(withoutEmpty(maker.improve(balls, ungrouped(finer.balls), goal)));
 }
 

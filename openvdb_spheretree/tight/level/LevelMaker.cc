@@ -58,7 +58,7 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     best.balls = start;
     for (uint64_t number = 0; number < uint64_t(searchesOf(size)); ++number) {
         const detail::Step step(interrupter, LevelWork(*this).ofSearch(size));
-        const SearchEffort effort{fit, trialsOf(size), number << 40, flat};
+        const SearchEffort effort{fit, trialsOf(size), number << 40, flat, relocations};
         SearchedCover found = improveCover(start, finer, object, goal, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }
@@ -176,11 +176,13 @@ LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject
     constexpr double kMost = 40, kLeast = 16, kFew = 4000;
     const double samples =
         std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
-    LevelMaker maker{object, {true, 12, 1, true, int(samples)}, flat, interrupter};
+    LevelMaker maker{object, {true, 12, 1, false, int(samples)}, flat, interrupter};
     maker.merging.samples = int(samples);
     maker.memory = settings.memory;
     maker.searchedUpTo = kFewBalls + kFewBalls / 8; // as many more as a coarse object gets
     if (quality == Quality::Best) {
+        maker.fit.restarts = true;
+        maker.relocations = 6;
         maker.searchedUpTo = INT64_MAX;
         maker.searches = 6;
         maker.trialsPerBall = 40;

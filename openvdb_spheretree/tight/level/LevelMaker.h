@@ -45,12 +45,14 @@ struct LevelMaker {
     int64_t searchedUpTo = 0;
     int searches = 1;      ///< of a level, at most
     int trialsPerBall = 8; ///< of a search, at most
+    std::size_t relocations =
+        3; ///< as of SearchEffort; 6 take half as long again, and gain nothing but in long searches
 
     /// @return the same for another object, such as a coarser one.
     LevelMaker forObject(const SampledObject& other) const
     {
         return {other, fit, flat, interrupter, merging, neighbours, sweeps, placesStart,
-            dilatedPerBall, memory, searchedUpTo, searches, trialsPerBall};
+            dilatedPerBall, memory, searchedUpTo, searches, trialsPerBall, relocations};
     }
 
     bool searchesLevelOf(std::size_t balls) const { return int64_t(balls) <= searchedUpTo; }

@@ -64,7 +64,7 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
     double work = 0;
     for (std::size_t k = 1; k < counts.size(); ++k) {
         const int64_t finer = counts[k - 1], count = counts[k];
-        work += ofMerging(finer, count) + 2 * ofPlacing(count); // once more for the children
+        work += ofMerging(finer, count) + (count > kFewBalls ? 1 : 2) * ofPlacing(count);
         work += ofSearches(count);
         // Those of large balls are decided at less resolution.
         const double leaves = std::min(mLeaves, double(kLeavesOfLargeBall) * double(count));
