@@ -60,8 +60,9 @@ double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess
 /// Regions of covers at most: each leaf node is in about three of a level's balls.
 double bytesOfCoverRegions(const std::vector<int64_t>& counts, std::size_t leafNodes)
 {
-    constexpr double kTimes = 3;
-    return kTimes * double(counts.size()) * double(leafNodes) * double(sizeof(RegionLeaf));
+    constexpr double kTimes = 3, kWhole = 0.5;
+    const double leaves = kTimes * double(leafNodes);
+    return double(counts.size()) * regionBytes(leaves, kWhole * leaves);
 }
 
 /// The work for one forest of all merges.

@@ -97,7 +97,7 @@ Chains chainsOf(const std::vector<TightLevel>& levels, const LevelMaker& maker)
     bool areAllUsed = true;
     for (const VoxelRegion& chain : chains) {
         areAllUsed = areAllUsed && !chain.empty();
-        for (const RegionLeaf& part : chain) left[part.leaf] -= part.mask;
+        for (const RegionLeaf part : chain) left[part.leaf] -= part.mask;
     }
     std::vector<openvdb::Coord> origins;
     std::vector<LeafMask> masks;

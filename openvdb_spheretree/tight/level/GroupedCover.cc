@@ -21,7 +21,7 @@ struct CellPart {
 int64_t voxelsIn(const VoxelRegion& region)
 {
     int64_t voxels = 0;
-    for (const RegionLeaf& part : region) voxels += part.mask.count();
+    for (const RegionLeaf part : region) voxels += part.mask.count();
     return voxels;
 }
 

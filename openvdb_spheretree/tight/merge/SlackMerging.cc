@@ -17,7 +17,7 @@ uint32_t mostInLeaf(const std::vector<VoxelRegion>& regions, std::size_t leaves)
 {
     std::vector<uint32_t> counts(leaves, 0);
     for (const VoxelRegion& region : regions) {
-        for (const RegionLeaf& part : region) ++counts[part.leaf];
+        for (const RegionLeaf part : region) ++counts[part.leaf];
     }
     return counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
 }
@@ -33,7 +33,7 @@ SlackMerging::SlackMerging(const SampledObject& object, const std::vector<CoverB
       mCounts(mVoxels.leafCount(), mostInLeaf(mRegions, mVoxels.leafCount()))
 {
     for (const VoxelRegion& region : mRegions) {
-        for (const RegionLeaf& part : region) mCounts.add(part.leaf, part.mask);
+        for (const RegionLeaf part : region) mCounts.add(part.leaf, part.mask);
     }
     for (int32_t i = 0; i < mLeafBalls; ++i) {
         if (!isInside(i)) mMerged.add(i, mBalls[i]);
@@ -79,12 +79,12 @@ void SlackMerging::merge(const std::vector<MergeCandidate>& merges, int32_t node
     for (std::size_t i = 0; i < merges.size(); ++i) {
         const MergeCandidate& c = merges[i];
         for (const int32_t child : {c.a, c.b}) {
-            for (const RegionLeaf& part : mRegions[child]) mCounts.remove(part.leaf, part.mask);
-            VoxelRegion().swap(mRegions[child]);
+            for (const RegionLeaf part : mRegions[child]) mCounts.remove(part.leaf, part.mask);
+            mRegions[child] = VoxelRegion();
             if (!isInside(child)) mMerged.remove(child, mBalls[child]);
         }
         if (c.ball.empty()) continue;
-        for (const RegionLeaf& part : regions[i]) mCounts.add(part.leaf, part.mask);
+        for (const RegionLeaf part : regions[i]) mCounts.add(part.leaf, part.mask);
         mRegions.push_back(std::move(regions[i]));
         mBalls.push_back(c.ball);
         mMerged.add(node + int32_t(i), c.ball);

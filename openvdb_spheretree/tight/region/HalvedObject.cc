@@ -39,15 +39,19 @@ HalvedObject::HalvedObject(const SampleLevel& object, bool flat)
 
 VoxelRegion HalvedObject::regionOf(const VoxelRegion& fine) const
 {
-    VoxelRegion halved;
     const SampleLevel& voxels = mHalved.level(0);
-    std::vector<std::pair<uint32_t, const RegionLeaf*>> parts;
-    for (const RegionLeaf& part : fine) parts.emplace_back(mParent[part.leaf], &part);
+    VoxelRegion halved(voxels);
+    std::vector<std::pair<uint32_t, std::size_t>> parts; // by the leaf that their parents are in
+    for (std::size_t i = 0; i < fine.size(); ++i) parts.emplace_back(mParent[fine[i].leaf], i);
     std::sort(parts.begin(), parts.end());
-    for (const auto& [leaf, part] : parts) {
-        if (halved.empty() || halved.back().leaf != leaf) halved.push_back({leaf, LeafMask{}});
-        mCoarsener.add(
-            part->mask, mFine.origin(part->leaf), voxels.origin(leaf), halved.back().mask);
+    for (std::size_t k = 0; k < parts.size();) {
+        const uint32_t leaf = parts[k].first;
+        LeafMask mask{};
+        for (; k < parts.size() && parts[k].first == leaf; ++k) {
+            const RegionLeaf part = fine[parts[k].second];
+            mCoarsener.add(part.mask, mFine.origin(part.leaf), voxels.origin(leaf), mask);
+        }
+        halved.append(leaf, mask);
     }
     return halved;
 }

@@ -73,12 +73,13 @@ std::vector<CellPart> partsOf(
 }
 
 /// @param parts  of each leaf; they are freed on the way
-std::vector<VoxelRegion> cellsOf(std::vector<std::vector<CellPart>>& parts, std::size_t balls)
+std::vector<VoxelRegion> cellsOf(
+    std::vector<std::vector<CellPart>>& parts, std::size_t balls, const SampleLevel& object)
 {
-    std::vector<VoxelRegion> cells(balls);
+    std::vector<VoxelRegion> cells(balls, VoxelRegion(object));
     for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
         for (const CellPart& part : parts[leaf]) {
-            cells[part.ball].push_back({uint32_t(leaf), part.mask});
+            cells[part.ball].append(uint32_t(leaf), part.mask);
         }
         std::vector<CellPart>().swap(parts[leaf]);
     }
@@ -93,7 +94,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
 {
     std::vector<std::vector<Claim>> claims(object.leafCount());
     for (std::size_t ball = 0; ball < regions.size(); ++ball) {
-        for (const RegionLeaf& part : regions[ball]) {
+        for (const RegionLeaf part : regions[ball]) {
             claims[part.leaf].push_back({int32_t(ball), &part.mask});
         }
     }
@@ -101,7 +102,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     detail::parallelFor(parts.size(), interrupter, [&](std::size_t leaf) {
         parts[leaf] = partsOf(object.origin(leaf), std::move(claims[leaf]), balls);
     });
-    return cellsOf(parts, balls.size());
+    return cellsOf(parts, balls.size(), object);
 }
 
 std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
@@ -116,7 +117,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
         parts[leaf] = partsOf(object.origin(leaf), std::move(claims), balls);
     };
     forEachLeafWithBalls(object, std::move(all), ballsWithPower(balls), body, interrupter);
-    return cellsOf(parts, balls.size());
+    return cellsOf(parts, balls.size(), object);
 }
 
 std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRegion>& regions,
@@ -126,7 +127,7 @@ std::vector<std::vector<openvdb::Coord>> extremePoints(const std::vector<VoxelRe
     detail::parallelForWithScratch<ExtremePoints>(
         regions.size(), interrupter, [&](std::size_t i, ExtremePoints& extreme) {
             extreme.clear();
-            for (const RegionLeaf& part : regions[i]) {
+            for (const RegionLeaf part : regions[i]) {
                 extreme.add(object.origin(part.leaf), part.mask);
             }
             points[i] = extreme.finish();

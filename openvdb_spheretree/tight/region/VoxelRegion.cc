@@ -10,13 +10,31 @@
 
 namespace openvdb_spheretree::tight {
 
+namespace {
+
+/// Appends those voxels of @a mask, in a leaf of the object, that lie in @a ball.
+void appendClipped(uint32_t leaf, const LeafMask& mask, const ExactSphere& ball,
+    const openvdb::Coord& origin, VoxelRegion& region)
+{
+    const BoxReach reach(ball, openvdb::CoordBBox::createCube(origin, kLeafDim));
+    if (!reach.meets(ball)) return;
+    const bool isHeld = reach.isHeldBy(ball);
+    region.append(leaf, isHeld ? mask : detail::voxelsOf(ball, kFineShift, origin) & mask);
+}
+
+/// @return an empty region, of the object of a region that is not.
+VoxelRegion sameObject(const VoxelRegion& region)
+{
+    return region.empty() ? VoxelRegion() : VoxelRegion(region.object());
+}
+
+} // namespace
+
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
 {
-    VoxelRegion region;
+    VoxelRegion region(object);
     object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
-        const LeafMask mask =
-            detail::voxelsOf(ball, kFineShift, object.origin(leaf)) & object.mask(leaf);
-        if (!mask.none()) region.push_back({uint32_t(leaf), mask});
+        appendClipped(uint32_t(leaf), object.mask(leaf), ball, object.origin(leaf), region);
     });
     return region;
 }
@@ -33,28 +51,24 @@ std::vector<VoxelRegion> regionsOf(const std::vector<ExactSphere>& balls, const 
 const LeafMask& maskIn(const VoxelRegion& region, uint32_t leaf)
 {
     static const LeafMask kNone{};
-    const auto found = std::lower_bound(region.begin(), region.end(), leaf,
-        [](const RegionLeaf& part, uint32_t index) { return part.leaf < index; });
-    return found != region.end() && found->leaf == leaf ? found->mask : kNone;
+    const std::size_t i = region.find(leaf);
+    return i < region.size() && region[i].leaf == leaf ? region[i].mask : kNone;
 }
 
 VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const SampleLevel& object)
 {
-    VoxelRegion inside;
-    for (const RegionLeaf& part : region) {
-        const openvdb::Coord& origin = object.origin(part.leaf);
-        if (!mayReach(ball, origin)) continue;
-        const LeafMask mask = detail::voxelsOf(ball, kFineShift, origin) & part.mask;
-        if (!mask.none()) inside.push_back({part.leaf, mask});
+    VoxelRegion inside(object);
+    for (const RegionLeaf part : region) {
+        appendClipped(part.leaf, part.mask, ball, object.origin(part.leaf), inside);
     }
     return inside;
 }
 
 VoxelRegion unionOf(const VoxelRegion& a, const VoxelRegion& b)
 {
-    VoxelRegion region;
+    VoxelRegion region = sameObject(a.empty() ? b : a);
     forEachLeafOfBoth(a, b, [&](uint32_t leaf, const LeafMask& inA, const LeafMask& inB) {
-        region.push_back({leaf, inA | inB});
+        region.append(leaf, inA | inB);
     });
     return region;
 }
@@ -65,7 +79,7 @@ VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions)
     thread_local std::vector<std::pair<uint32_t, const LeafMask*>> parts;
     parts.clear();
     for (const VoxelRegion* region : regions) {
-        for (const RegionLeaf& part : *region) parts.emplace_back(part.leaf, &part.mask);
+        for (const RegionLeaf part : *region) parts.emplace_back(part.leaf, &part.mask);
     }
     std::sort(
         parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -73,38 +87,39 @@ VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions)
     for (std::size_t i = 0; i < parts.size(); ++i) {
         leaves += i == 0 || parts[i].first != parts[i - 1].first;
     }
-    VoxelRegion united;
+    if (parts.empty()) return {};
+    VoxelRegion united = sameObject(**std::find_if(regions.begin(), regions.end(),
+        [](const VoxelRegion* region) { return !region->empty(); }));
     united.reserve(leaves);
-    for (const auto& [leaf, mask] : parts) {
-        if (!united.empty() && united.back().leaf == leaf) united.back().mask |= *mask;
-        else united.push_back({leaf, *mask});
+    for (std::size_t i = 0; i < parts.size();) {
+        const uint32_t leaf = parts[i].first;
+        LeafMask mask{};
+        for (; i < parts.size() && parts[i].first == leaf; ++i) mask |= *parts[i].second;
+        united.append(leaf, mask);
     }
     return united;
 }
 
 VoxelRegion intersectionOf(const VoxelRegion& a, const VoxelRegion& b)
 {
-    VoxelRegion region;
-    auto other = b.begin(); // searched, as b may be much larger
-    for (const RegionLeaf& part : a) {
-        other = std::lower_bound(other, b.end(), part.leaf,
-            [](const RegionLeaf& some, uint32_t leaf) { return some.leaf < leaf; });
-        if (other == b.end()) break;
-        const LeafMask both = other->leaf == part.leaf ? part.mask & other->mask : LeafMask{};
-        if (!both.none()) region.push_back({part.leaf, both});
+    VoxelRegion region = sameObject(a);
+    std::size_t other = 0; // searched, as b may be much larger
+    for (const RegionLeaf part : a) {
+        other = b.find(part.leaf, other);
+        if (other == b.size()) break;
+        if (b[other].leaf == part.leaf) region.append(part.leaf, part.mask & b[other].mask);
     }
     return region;
 }
 
 VoxelRegion differenceOf(const VoxelRegion& a, const VoxelRegion& b)
 {
-    VoxelRegion region;
+    VoxelRegion region = sameObject(a);
     std::size_t j = 0;
-    for (const RegionLeaf& part : a) {
+    for (const RegionLeaf part : a) {
         while (j < b.size() && b[j].leaf < part.leaf) ++j;
         const bool inBoth = j < b.size() && b[j].leaf == part.leaf;
-        const LeafMask left = inBoth ? part.mask - b[j].mask : part.mask;
-        if (!left.none()) region.push_back({part.leaf, left});
+        region.append(part.leaf, inBoth ? part.mask - b[j].mask : part.mask);
     }
     return region;
 }

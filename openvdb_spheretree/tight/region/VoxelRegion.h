@@ -9,6 +9,8 @@
 
 #include <openvdb/util/NullInterrupter.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,10 +19,75 @@ namespace openvdb_spheretree::tight {
 /// The voxels of a region in one leaf of the object.
 struct RegionLeaf {
     uint32_t leaf;
-    LeafMask mask;
+    const LeafMask& mask; ///< lives as long as the region, and until that changes
 };
-/// In the order of leaves; no part is empty.
-using VoxelRegion = std::vector<RegionLeaf>;
+
+/// In the order of leaves; no part is empty. Where it has all voxels that the object has in a leaf, it takes 8 bytes,
+/// and 72 elsewhere: large balls hold most leaves as a whole.
+class VoxelRegion {
+    struct Part {
+        uint32_t leaf, mask; ///< the number of its mask, or kWhole
+    };
+
+public:
+    static constexpr std::size_t kBytesOfLeaf = sizeof(Part); ///< without its mask
+
+    VoxelRegion() = default; ///< stays empty
+    /// Of an object that outlives it.
+    explicit VoxelRegion(const SampleLevel& object) : mObject(&object) {}
+
+    const SampleLevel& object() const { return *mObject; }
+    std::size_t size() const { return mParts.size(); } ///< leaves
+    bool empty() const { return mParts.empty(); }
+    RegionLeaf operator[](std::size_t i) const
+    {
+        const Part& part = mParts[i];
+        return {part.leaf, part.mask == kWhole ? mObject->mask(part.leaf) : mMasks[part.mask]};
+    }
+    /// @return the place of the first part, from @a from on, of @a leaf or of one behind it.
+    std::size_t find(uint32_t leaf, std::size_t from = 0) const
+    {
+        const auto before = [](const Part& part, uint32_t index) { return part.leaf < index; };
+        const auto begin = mParts.begin() + std::ptrdiff_t(from);
+        return std::size_t(std::lower_bound(begin, mParts.end(), leaf, before) - mParts.begin());
+    }
+
+    void reserve(std::size_t leaves) { mParts.reserve(leaves); }
+    /// Appends the voxels of a leaf behind all others.
+    /// @param mask  if it is empty, nothing is appended
+    void append(uint32_t leaf, const LeafMask& mask)
+    {
+        if (mask.none()) return;
+        const bool isWhole = mask == mObject->mask(leaf);
+        mParts.push_back({leaf, isWhole ? kWhole : uint32_t(mMasks.size())});
+        if (!isWhole) mMasks.push_back(mask);
+    }
+
+    class Iterator {
+    public:
+        Iterator(const VoxelRegion& region, std::size_t at) : mRegion(&region), mAt(at) {}
+        RegionLeaf operator*() const { return (*mRegion)[mAt]; }
+        Iterator& operator++()
+        {
+            ++mAt;
+            return *this;
+        }
+        bool operator!=(const Iterator& other) const { return mAt != other.mAt; }
+
+    private:
+        const VoxelRegion* mRegion;
+        std::size_t mAt;
+    };
+    Iterator begin() const { return {*this, 0}; }
+    Iterator end() const { return {*this, size()}; }
+
+private:
+    static constexpr uint32_t kWhole = ~uint32_t(0);
+
+    const SampleLevel* mObject = nullptr;
+    std::vector<Part> mParts;
+    std::vector<LeafMask> mMasks;
+};
 
 /// @return the object voxels in @a ball.
 VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object);

@@ -26,15 +26,21 @@ WorkingMemory& WorkingMemory::addRegions(
     const std::vector<ExactSphere>& balls, std::size_t leafNodes)
 {
     constexpr double kOfCube = 0.5236; // a ball of a cube
-    double leaves = 0;
+    constexpr double kCopies = 2;      // of the next coarser level's balls, too
     for (const ExactSphere& ball : balls) {
         if (ball.empty()) continue;
         const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
-        leaves += std::min(double(leafNodes), kOfCube * side * side * side);
+        const double leaves = std::min(double(leafNodes), kOfCube * side * side * side);
+        // At the ball's surface, two leaves deep, are those that it holds in part.
+        const double depth = std::max(0.0, 1 - 4 / side);
+        bytes += kCopies * regionBytes(leaves, leaves * depth * depth * depth);
     }
-    constexpr double kCopies = 2; // of the next coarser level's balls, too
-    bytes += kCopies * leaves * double(sizeof(RegionLeaf));
     return *this;
+}
+
+double regionBytes(double leaves, double whole)
+{
+    return double(VoxelRegion::kBytesOfLeaf) * leaves + double(sizeof(LeafMask)) * (leaves - whole);
 }
 
 bool WorkingMemory::fits(int64_t memory) const

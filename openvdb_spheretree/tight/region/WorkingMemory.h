@@ -32,4 +32,8 @@ struct WorkingMemory {
     void require(int64_t memory, const std::string& what) const;
 };
 
+/// @return what regions of so many leaves take together.
+/// @param whole  those of which a region has all voxels of the object
+double regionBytes(double leaves, double whole);
+
 } // namespace openvdb_spheretree::tight

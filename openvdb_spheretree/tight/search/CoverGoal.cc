@@ -15,12 +15,17 @@ using openvdb::CoordBBox;
 
 namespace {
 
+struct LeafPart {
+    uint32_t leaf; ///< of the object
+    LeafMask mask;
+};
+
 /// Descends into cubes that have leaves of the object and that a removed ball reaches, unless another
 /// ball holds all of one.
 class UncoveredVoxels {
 public:
     UncoveredVoxels(const VoxelGoal& goal, const SampleLevel& object,
-        const std::vector<CoverBall>& removed, std::vector<RegionLeaf>& found)
+        const std::vector<CoverBall>& removed, std::vector<LeafPart>& found)
         : mGoal(goal), mObject(object), mRemoved(removed), mFound(found)
     {
         for (const CoverBall& ball : removed) {
@@ -50,7 +55,7 @@ public:
         const int64_t origin[3] = {first[0], first[1], first[2]};
         descend(origin, side, {leaves.data(), leaves.data() + leaves.size()}, near, 0, near.size());
         std::sort(mFound.begin(), mFound.end(),
-            [](const RegionLeaf& x, const RegionLeaf& y) { return x.leaf < y.leaf; });
+            [](const LeafPart& x, const LeafPart& y) { return x.leaf < y.leaf; });
     }
 
 private:
@@ -139,7 +144,7 @@ private:
     const VoxelGoal& mGoal;
     const SampleLevel& mObject;
     const std::vector<CoverBall>& mRemoved;
-    std::vector<RegionLeaf>& mFound;
+    std::vector<LeafPart>& mFound;
     CoordBBox mBox; ///< of the removed balls
     bool mOneGroup = true;
 };
@@ -154,11 +159,11 @@ const LeafMask& VoxelGoal::counting(std::size_t leaf, int32_t group) const
 void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
     const std::vector<CoverBall>& others, std::vector<Coord>& points) const
 {
-    thread_local std::vector<RegionLeaf> uncovered;
+    thread_local std::vector<LeafPart> uncovered;
     thread_local ExtremePoints extreme;
     UncoveredVoxels(*this, mObject, removed, uncovered).list(others);
     extreme.clear();
-    for (const RegionLeaf& part : uncovered) extreme.add(mObject.origin(part.leaf), part.mask);
+    for (const LeafPart& part : uncovered) extreme.add(mObject.origin(part.leaf), part.mask);
     points = extreme.finish();
 }
 

@@ -62,4 +62,29 @@ TEST(VoxelRegion, OfABallAreTheObjectsVoxelsInIt)
     EXPECT_TRUE(regionOf(ExactSphere(), sampled({Coord(0, 0, 0)}).level(0)).empty());
 }
 
+TEST(VoxelRegion, KeepsWholeLeavesAndPartsOfLeaves)
+{
+    LeafMask one{};
+    one.setOn(17);
+    const LeafMask others = LeafMask::full() - one;
+    const std::vector<LeafMask> masks{LeafMask::full(), others, one, LeafMask::full()};
+    const SampleLevel object({Coord(0), Coord(0, 0, 8), Coord(0, 8, 0), Coord(8, 0, 0)}, masks);
+    VoxelRegion region(object);
+    region.append(0, one);
+    region.append(1, others); // all that the object has there
+    region.append(2, LeafMask{});
+    region.append(3, LeafMask::full());
+    ASSERT_EQ(region.size(), 3u);
+    EXPECT_EQ(region[0].mask, one);
+    EXPECT_EQ(region[1].mask, others);
+    EXPECT_EQ(region[2].mask, LeafMask::full());
+    EXPECT_EQ(&region[1].mask, &object.mask(1)) << "no mask of its own";
+    EXPECT_EQ(region.find(1), 1u);
+    EXPECT_EQ(region.find(2), 2u);
+    EXPECT_EQ(region.find(0, 1), 1u);
+    EXPECT_EQ(region.find(4), 3u);
+    EXPECT_EQ(maskIn(region, 1), others);
+    EXPECT_TRUE(maskIn(region, 2).none());
+}
+
 } // namespace

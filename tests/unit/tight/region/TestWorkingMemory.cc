@@ -14,10 +14,11 @@ using namespace openvdb_spheretree;
 using namespace openvdb_spheretree::tight;
 using namespace spheretree_test;
 
-TEST(WorkingMemory, OfRegionsIsNotLessThanTheyTake)
+/// @param rate  1: a box
+void expectEnoughForRegions(double rate)
 {
     Random random(1);
-    const Voxels voxels = shapes::noise(Coord(70, 60, 50), 0.7, random);
+    const Voxels voxels = shapes::noise(Coord(72, 64, 48), rate, random);
     const SampledObject object(LeafLayout(*maskOf(voxels)));
     const SampleLevel& level = object.level(0);
     for (const int radius : {3, 30, 200, 900}) {
@@ -29,13 +30,21 @@ TEST(WorkingMemory, OfRegionsIsNotLessThanTheyTake)
         }
         double taken = 0;
         for (const VoxelRegion& region : regionsOf(balls, level, nullptr)) {
-            taken += double(region.size() * sizeof(RegionLeaf));
+            std::size_t whole = 0;
+            for (const RegionLeaf part : region) whole += part.mask == level.mask(part.leaf);
+            taken += regionBytes(double(region.size()), double(whole));
         }
         WorkingMemory estimate;
         estimate.addRegions(balls, level.leafCount());
         EXPECT_GE(estimate.bytes, taken);
-        EXPECT_LE(estimate.bytes, 2 * 50 * double(level.leafCount()) * sizeof(RegionLeaf));
+        EXPECT_LE(estimate.bytes, 2 * regionBytes(50 * double(level.leafCount()), 0));
     }
+}
+
+TEST(WorkingMemory, OfRegionsIsNotLessThanTheyTake)
+{
+    expectEnoughForRegions(0.7);
+    expectEnoughForRegions(1);
 }
 
 TEST(WorkingMemory, AddsUpAndIsRefusedWithBothNumbers)

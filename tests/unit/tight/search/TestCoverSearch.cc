@@ -183,7 +183,7 @@ TEST(CoverSearch, LeavesBallsInTheirGroups)
     ASSERT_EQ(found.balls.size(), cover.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         EXPECT_EQ(found.balls[i].group, int32_t(i));
-        for (const RegionLeaf& part : cells[i]) {
+        for (const RegionLeaf part : cells[i]) {
             const LeafMask held = openvdb_spheretree::detail::voxelsOf(
                 found.balls[i].ball, kFineShift, object.origin(part.leaf));
             for (int w = 0; w < 8; ++w) EXPECT_EQ(part.mask[w] & ~held[w], 0u);
