@@ -34,13 +34,7 @@ struct BoxReach {
     bool isHeldBy(const ExactSphere& ball) const { return farthestSq <= ball.radiusSq; }
 };
 
-/// @return whether @a ball reaches the box of the leaf at @a origin, and so may hold a voxel of it.
-inline bool mayReach(const ExactSphere& ball, const openvdb::Coord& origin)
-{
-    return BoxReach(ball, openvdb::CoordBBox::createCube(origin, kLeafDim)).meets(ball);
-}
-
-/// @return the power of the middle of a box to a ball, negated: the larger, the deeper it is in the ball.
+/// @return how deep the middle of a box is in a ball: its power, negated; below 0 outside.
 double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box);
 
 /// @return whether every point of the box is deeper in @a ball than in @a other. So what @a other holds of the

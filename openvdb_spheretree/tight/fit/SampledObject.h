@@ -8,6 +8,7 @@
 /// always every voxel.
 ///
 /// These are samples and not an OR-pyramid, in which a thin sheet would be as thick as a coarse voxel.
+/// (The finest level may be of a coarser object: HalvedObject.h.)
 /// Memory: 72 bytes for each leaf of each level; solids have 1.15 times the object's leaves.
 
 #pragma once

@@ -50,7 +50,8 @@ std::vector<ExactSphere> fewerBalls(
     const bool areInside = !finer.digital.empty();
     auto balls = maker.merged(ungrouped(finer.balls), units, areInside, count);
     const bool isSearched = maker.searchesLevelOf(std::size_t(count));
-    if (count > kFewBalls && !isSearched) return ballsOf(balls); // of many, placing gains nothing
+    // To place many for whole cells gains nothing.
+    if (count > kFewBalls && !isSearched) return ballsOf(balls);
     const UnitGoal goal(units);
     balls = maker.placed(balls, goal);
     if (!isSearched) return ballsOf(balls);
@@ -71,11 +72,11 @@ TightLevel parentLevel(TightLevel& finer, const Units& units,
     return level;
 }
 
-/// Decides that at half the resolution, or at less. Each ball then grows until it holds the units of its children.
-TightLevel parentLevelOfHalved(TightLevel& finer, const Units& units,
+/// As parentLevel(), but decided at half the resolution, or at less. Each ball then grows until it holds the units of
+/// its children.
+TightLevel parentLevelOf(const HalvedObject& halved, TightLevel& finer, const Units& units,
     const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
 {
-    const HalvedObject halved(maker.object.level(0), maker.flat);
     std::vector<VoxelRegion> halvedRegions(regions.size());
     detail::parallelFor(regions.size(), maker.interrupter,
         [&](std::size_t i) { halvedRegions[i] = halved.regionOf(regions[i]); });
@@ -100,12 +101,27 @@ TightLevel parentLevelOfHalved(TightLevel& finer, const Units& units,
     return level;
 }
 
-/// @return whether balls of a level are still large at half the resolution.
-bool areLarge(int64_t count, const LevelMaker& maker)
+/// @return whether balls of a level are large (kLeavesOfLargeBall), and there is much to decide: merging alone
+/// takes as long at any resolution.
+bool areLargeAndSearched(int64_t count, const LevelMaker& maker)
 {
-    // Only then there is much to decide: merging costs as much at any resolution.
-    if (!maker.searchesLevelOf(std::size_t(count))) return false;
-    return maker.object.level(0).leafCount() > std::size_t(count) * kLeavesOfLargeBall;
+    return maker.searchesLevelOf(std::size_t(count))
+        && maker.object.level(0).leafCount() > std::size_t(count) * kLeavesOfLargeBall;
+}
+
+/// As parentLevel(), at the resolution that suits the balls.
+TightLevel suitedParentLevel(TightLevel& finer, const Units& units,
+    const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    if (areLargeAndSearched(count, maker)) {
+        const HalvedObject halved(maker.object.level(0), maker.flat);
+        // Of voxels far from each other nearly all leaves are left: nothing would be gained.
+        const std::size_t left = halved.object().level(0).leafCount();
+        if (2 * left <= maker.object.level(0).leafCount()) {
+            return parentLevelOf(halved, finer, units, regions, count, maker);
+        }
+    }
+    return parentLevel(finer, units, regions, count, maker);
 }
 
 /// Places the balls of a level anew for their children's regions alone.
@@ -127,9 +143,7 @@ TightLevel coarserLevel(
     const SampleLevel& object = maker.object.level(0);
     const Units units = extremePoints(
         powerCells(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
-    TightLevel level = areLarge(count, maker)
-        ? parentLevelOfHalved(finer, units, regions, count, maker)
-        : parentLevel(finer, units, regions, count, maker);
+    TightLevel level = suitedParentLevel(finer, units, regions, count, maker);
     placeAbove(level, finer, regions, maker);
     regions = heldBelow(level.balls, regions, finer.parent, maker);
     return level;

@@ -37,6 +37,13 @@ std::vector<CoverBall> groupedCut(
 
 } // namespace
 
+FitEffort LevelMaker::mergingTo(int64_t count) const
+{
+    FitEffort effort = merging;
+    effort.diagonals = effort.diagonals || count <= kFewBalls;
+    return effort;
+}
+
 int LevelMaker::searchesOf(int64_t balls) const
 {
     constexpr int64_t kBalls = 128;
@@ -107,9 +114,8 @@ std::vector<ExactSphere> LevelMaker::fitted(
 std::vector<CoverBall> LevelMaker::merged(const std::vector<CoverBall>& balls,
     const HeldPoints& points, bool areInside, int64_t count) const
 {
-    FitEffort effort = merging;
-    if (count <= kFewBalls) effort.diagonals = true; // so few merges take little time
-    StrictMerging model(object, balls, heldVoxels(points, areInside), effort, flat, interrupter);
+    StrictMerging model(
+        object, balls, heldVoxels(points, areInside), mergingTo(count), flat, interrupter);
     const detail::Step step(interrupter, LevelWork(*this).ofMerging(int64_t(balls.size()), count));
     return groupedCut(mergeToCount(model, neighbours, count, interrupter), balls, count);
 }

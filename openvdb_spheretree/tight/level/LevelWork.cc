@@ -11,7 +11,7 @@ namespace openvdb_spheretree::tight {
 
 double LevelWork::ofMerging(int64_t balls, int64_t count) const
 {
-    const double perMerge = mMaker.merging.diagonals ? 250e-6 : 130e-6;
+    const double perMerge = mMaker.mergingTo(count).diagonals ? 250e-6 : 130e-6;
     return perMerge * double(std::max<int64_t>(0, balls - count));
 }
 
@@ -30,8 +30,9 @@ double LevelWork::ofPlacing(int64_t balls, bool isBetween) const
 
 double LevelWork::ofSearch(int64_t balls) const
 {
-    constexpr double kTrial = 0.5e-3, kRelocations = 20e-3;
-    return (kTrial * mMaker.trialsOf(balls) + kRelocations) * double(balls);
+    constexpr double kTrial = 0.5e-3, kRelocation = 3.3e-3;
+    return (kTrial * mMaker.trialsOf(balls) + kRelocation * double(mMaker.relocations))
+        * double(balls);
 }
 
 double LevelWork::ofSearches(int64_t balls) const
@@ -64,7 +65,8 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
     double work = 0;
     for (std::size_t k = 1; k < counts.size(); ++k) {
         const int64_t finer = counts[k - 1], count = counts[k];
-        work += ofMerging(finer, count) + (count > kFewBalls ? 1 : 2) * ofPlacing(count);
+        const bool isPlacedTwice = count <= kFewBalls || mMaker.searchesLevelOf(std::size_t(count));
+        work += ofMerging(finer, count) + (isPlacedTwice ? 2 : 1) * ofPlacing(count);
         work += ofSearches(count);
         // Those of large balls are decided at less resolution.
         const double leaves = std::min(mLeaves, double(kLeavesOfLargeBall) * double(count));

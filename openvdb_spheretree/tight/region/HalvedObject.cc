@@ -18,7 +18,7 @@ PyramidStep halving(bool flat)
 } // namespace
 
 HalvedObject::HalvedObject(const SampleLevel& object, bool flat)
-    : mFine(object), mStep(halving(flat)), mCoarsener(mStep), mParent(object.leafCount())
+    : mFine(object), mStep(halving(flat)), mCoarsener(mStep), mParentLeaf(object.leafCount())
 {
     // A leaf of 8^3 voxels starts at an even one, so it has all its parents in one leaf.
     std::vector<openvdb::Coord> origins;
@@ -31,8 +31,8 @@ HalvedObject::HalvedObject(const SampleLevel& object, bool flat)
     std::vector<LeafMask> masks(sorted.size(), LeafMask{});
     for (std::size_t leaf = 0; leaf < object.leafCount(); ++leaf) {
         const auto parent = std::lower_bound(sorted.begin(), sorted.end(), origins[leaf]);
-        mParent[leaf] = uint32_t(parent - sorted.begin());
-        mCoarsener.add(object.mask(leaf), object.origin(leaf), *parent, masks[mParent[leaf]]);
+        mParentLeaf[leaf] = uint32_t(parent - sorted.begin());
+        mCoarsener.add(object.mask(leaf), object.origin(leaf), *parent, masks[mParentLeaf[leaf]]);
     }
     mHalved = SampledObject(SampleLevel(std::move(sorted), std::move(masks)));
 }
@@ -42,7 +42,7 @@ VoxelRegion HalvedObject::regionOf(const VoxelRegion& fine) const
     const SampleLevel& voxels = mHalved.level(0);
     VoxelRegion halved(voxels);
     std::vector<std::pair<uint32_t, std::size_t>> parts; // by the leaf that their parents are in
-    for (std::size_t i = 0; i < fine.size(); ++i) parts.emplace_back(mParent[fine[i].leaf], i);
+    for (std::size_t i = 0; i < fine.size(); ++i) parts.emplace_back(mParentLeaf[fine[i].leaf], i);
     std::sort(parts.begin(), parts.end());
     for (std::size_t k = 0; k < parts.size();) {
         const uint32_t leaf = parts[k].first;

@@ -16,8 +16,10 @@ namespace openvdb_spheretree::tight {
 
 class HalvedObject {
 public:
-    /// @param flat  z stays as it is
+    /// @param object  outlives it
+    /// @param flat    z stays as it is
     HalvedObject(const SampleLevel& object, bool flat);
+    HalvedObject(const HalvedObject&) = delete; // regions refer to it
 
     const SampledObject& object() const { return mHalved; }
     /// From the object to this one.
@@ -25,14 +27,14 @@ public:
 
     /// @return the parents of the voxels of a region.
     VoxelRegion regionOf(const VoxelRegion& fine) const;
-    /// @return an empty ball around the center of a ball, rounded.
+    /// @return a ball of radius 0 at the center of a ball, rounded.
     ExactSphere centerOf(const ExactSphere& fine) const;
 
 private:
     const SampleLevel& mFine;
     const PyramidStep mStep;
     const detail::LeafCoarsener mCoarsener;
-    std::vector<uint32_t> mParent; ///< of each leaf of the object the leaf here
+    std::vector<uint32_t> mParentLeaf; ///< of each leaf of the object the leaf here
     SampledObject mHalved;
 };
 

@@ -36,6 +36,7 @@ VoxelRegion regionOf(const ExactSphere& ball, const SampleLevel& object)
     object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
         appendClipped(uint32_t(leaf), object.mask(leaf), ball, object.origin(leaf), region);
     });
+    region.shrink();
     return region;
 }
 
@@ -61,6 +62,7 @@ VoxelRegion clipped(const VoxelRegion& region, const ExactSphere& ball, const Sa
     for (const RegionLeaf part : region) {
         appendClipped(part.leaf, part.mask, ball, object.origin(part.leaf), inside);
     }
+    inside.shrink();
     return inside;
 }
 
@@ -97,6 +99,7 @@ VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions)
         for (; i < parts.size() && parts[i].first == leaf; ++i) mask |= *parts[i].second;
         united.append(leaf, mask);
     }
+    united.shrink();
     return united;
 }
 

@@ -53,6 +53,16 @@ public:
     }
 
     void reserve(std::size_t leaves) { mParts.reserve(leaves); }
+    /// Gives back what more was reserved than there is.
+    void shrink()
+    {
+        mParts.shrink_to_fit();
+        mMasks.shrink_to_fit();
+    }
+    int64_t bytes() const
+    {
+        return int64_t(mParts.capacity() * sizeof(Part) + mMasks.capacity() * sizeof(LeafMask));
+    }
     /// Appends the voxels of a leaf behind all others.
     /// @param mask  if it is empty, nothing is appended
     void append(uint32_t leaf, const LeafMask& mask)

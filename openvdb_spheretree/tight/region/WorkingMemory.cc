@@ -27,13 +27,16 @@ WorkingMemory& WorkingMemory::addRegions(
 {
     constexpr double kOfCube = 0.5236; // a ball of a cube
     constexpr double kCopies = 2;      // of the next coarser level's balls, too
+    constexpr double kClaim = 24;      // of a ball on a leaf whose voxels are dealt to cells
     for (const ExactSphere& ball : balls) {
         if (ball.empty()) continue;
         const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
-        const double leaves = std::min(double(leafNodes), kOfCube * side * side * side);
-        // At the ball's surface, two leaves deep, are those that it holds in part.
+        const double inBall = kOfCube * side * side * side;
+        const double leaves = std::min(double(leafNodes), inBall);
+        // Those that it holds in part are two leaves deep at most; all of the object's may be there.
         const double depth = std::max(0.0, 1 - 4 / side);
-        bytes += kCopies * regionBytes(leaves, leaves * depth * depth * depth);
+        const double parts = std::min(leaves, inBall * (1 - depth * depth * depth));
+        bytes += kCopies * regionBytes(leaves, leaves - parts) + kClaim * leaves;
     }
     return *this;
 }
