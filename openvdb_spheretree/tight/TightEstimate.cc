@@ -50,9 +50,9 @@ double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess
     const double scale = std::exp2(double(last - guess.level));
     std::vector<ExactSphere> balls = coarse.leaves.balls;
     WorkingMemory coarseRegions, regions;
-    coarseRegions.addRegions(balls, coarseNodes);
+    coarseRegions.guessRegions(balls, coarseNodes);
     for (ExactSphere& ball : balls) ball.radiusSq = int64_t(double(ball.radiusSq) * scale * scale);
-    regions.addRegions(balls, leafNodes);
+    regions.guessRegions(balls, leafNodes);
     const double ofNodes = coarseRegions.bytes * double(leafNodes) / double(coarseNodes);
     return std::min(regions.bytes, ofNodes) * guess.leafBalls / double(balls.size());
 }

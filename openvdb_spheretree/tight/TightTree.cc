@@ -73,7 +73,7 @@ void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory)
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
     needed.addSamples(leafNodes).addMerging(leafBalls.size());
-    if (withRegions) needed.addRegions(leafBalls, leafNodes);
+    if (withRegions) needed.addRegions(leafBalls, coarse.samples.level(0));
     needed.require(memory,
         "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");
 }

@@ -137,8 +137,8 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
 
 WorkingMemory LevelMaker::regionMemory(const std::vector<ExactSphere>& balls) const
 {
-    const std::size_t leafNodes = object.level(0).leafCount();
-    return WorkingMemory().addSamples(leafNodes).addRegions(balls, leafNodes);
+    const SampleLevel& voxels = object.level(0);
+    return WorkingMemory().addSamples(voxels.leafCount()).addRegions(balls, voxels);
 }
 
 void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const

@@ -3,6 +3,8 @@
 
 #include "VoxelRegion.h"
 #include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <algorithm>
 
@@ -23,11 +25,26 @@ WorkingMemory& WorkingMemory::addMerging(std::size_t balls)
 }
 
 WorkingMemory& WorkingMemory::addRegions(
+    const std::vector<ExactSphere>& balls, const SampleLevel& object)
+{
+    std::vector<RegionSize> sizes(balls.size());
+    detail::parallelFor(balls.size(), nullptr, [&](std::size_t i) {
+        const ExactSphere& ball = balls[i];
+        object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
+            const auto box = openvdb::CoordBBox::createCube(object.origin(leaf), kLeafDim);
+            const BoxReach reach(ball, box);
+            sizes[i].leaves += reach.meets(ball);
+            sizes[i].whole += reach.isHeldBy(ball);
+        });
+    });
+    for (const RegionSize& size : sizes) addRegion(size);
+    return *this;
+}
+
+WorkingMemory& WorkingMemory::guessRegions(
     const std::vector<ExactSphere>& balls, std::size_t leafNodes)
 {
     constexpr double kOfCube = 0.5236; // a ball of a cube
-    constexpr double kCopies = 2;      // of the next coarser level's balls, too
-    constexpr double kClaim = 24;      // of a ball on a leaf whose voxels are dealt to cells
     for (const ExactSphere& ball : balls) {
         if (ball.empty()) continue;
         const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
@@ -36,9 +53,16 @@ WorkingMemory& WorkingMemory::addRegions(
         // Those that it holds in part are two leaves deep at most; all of the object's may be there.
         const double depth = std::max(0.0, 1 - 4 / side);
         const double parts = std::min(leaves, inBall * (1 - depth * depth * depth));
-        bytes += kCopies * regionBytes(leaves, leaves - parts) + kClaim * leaves;
+        addRegion({leaves, leaves - parts});
     }
     return *this;
+}
+
+void WorkingMemory::addRegion(const RegionSize& size)
+{
+    constexpr double kCopies = 2; // of the next coarser level's balls, too
+    constexpr double kClaim = 24; // of a ball on a leaf whose voxels are dealt to cells
+    bytes += kCopies * regionBytes(size.leaves, size.whole) + kClaim * size.leaves;
 }
 
 double regionBytes(double leaves, double whole)

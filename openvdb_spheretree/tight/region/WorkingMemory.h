@@ -5,6 +5,7 @@
 #pragma once
 
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
+#include <openvdb_spheretree/tight/fit/SampledObject.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +21,11 @@ struct WorkingMemory {
     WorkingMemory& addSamples(std::size_t leafNodes);
     /// Merging so many balls: what they hold, their neighbours, the merged balls.
     WorkingMemory& addMerging(std::size_t balls);
-    /// The voxels of each ball of a level (VoxelRegion.h), and below those of the next coarser one; of an object
-    /// of so many leaf nodes.
-    WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
+    /// The voxels of each ball of a level (VoxelRegion.h), and below those of the next coarser one. Parallel; a look at
+    /// each leaf node that a ball meets.
+    WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, const SampleLevel& object);
+    /// About the same for an object that is not there, of so many leaf nodes.
+    WorkingMemory& guessRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 
     /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
     /// @return whether it is no more
@@ -30,6 +33,12 @@ struct WorkingMemory {
     /// @param memory  as of fits()
     /// @throw openvdb::ValueError if it is more
     void require(int64_t memory, const std::string& what) const;
+
+private:
+    struct RegionSize {
+        double leaves = 0, whole = 0; ///< leaf nodes, and those that it has all voxels of
+    };
+    void addRegion(const RegionSize& size);
 };
 
 /// @return what regions of so many leaves take together.
