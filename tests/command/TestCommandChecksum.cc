@@ -81,7 +81,7 @@ TEST_F(CommandChecksum, ABitThatFlippedInTheFileIsNamedByThePartItIsIn)
         return whole.find(key) + key.size() + sizeof(uint32_t) + type.size() + sizeof(uint32_t);
     };
     // A digit of the identifier, which is one after that, too.
-    const std::size_t digit = whole.find_first_of("0123456789", kTagOffset - 9);
+    const std::size_t digit = whole.find_first_of("0123456789", kTagOffset);
     const std::string elsewhere = "its trees are whole by their own checksums";
     const std::vector<std::pair<std::size_t, std::string>> flips = {
         {valueOf("spheretree_object_voxels", int64),
@@ -90,7 +90,7 @@ TEST_F(CommandChecksum, ABitThatFlippedInTheFileIsNamedByThePartItIsIn)
         {valueOf("spheretree_cuts_nodes", int32),
             "point grid 't_cuts' is a damaged list of cuts: by its checksum it is not as it was "
             "written: its metadata"},
-        {kTagOffset, elsewhere}, {digit, elsewhere}, {whole.rfind("blob"), elsewhere}};
+        {digit, elsewhere}, {kTagOffset - 9, elsewhere}, {whole.rfind("blob"), elsewhere}};
     for (const auto& [place, part] : flips) {
         ASSERT_LT(place, whole.size()) << part;
         std::string flipped = whole;
