@@ -83,16 +83,11 @@ VoxelRegion unionOf(const std::vector<const VoxelRegion*>& regions)
     for (const VoxelRegion* region : regions) {
         for (const RegionLeaf part : *region) parts.emplace_back(part.leaf, &part.mask);
     }
+    if (parts.empty()) return {};
     std::sort(
         parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::size_t leaves = 0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        leaves += i == 0 || parts[i].first != parts[i - 1].first;
-    }
-    if (parts.empty()) return {};
     VoxelRegion united = sameObject(**std::find_if(regions.begin(), regions.end(),
         [](const VoxelRegion* region) { return !region->empty(); }));
-    united.reserve(leaves);
     for (std::size_t i = 0; i < parts.size();) {
         const uint32_t leaf = parts[i].first;
         LeafMask mask{};

@@ -52,7 +52,6 @@ public:
         return std::size_t(std::lower_bound(begin, mParts.end(), leaf, before) - mParts.begin());
     }
 
-    void reserve(std::size_t leaves) { mParts.reserve(leaves); }
     /// Gives back what more was reserved than there is.
     void shrink()
     {
