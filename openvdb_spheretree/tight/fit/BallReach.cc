@@ -25,29 +25,4 @@ openvdb::CoordBBox ballBox(const ExactSphere& ball)
     return box;
 }
 
-double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box)
-{
-    double power = double(ball.radiusSq);
-    for (int a = 0; a < 3; ++a) {
-        const int64_t twice = kFine * (int64_t(box.min()[a]) + box.max()[a]);
-        const double d = 0.5 * double(twice) - double(ball.center[a]);
-        power -= d * d;
-    }
-    return power;
-}
-
-bool hasMorePower(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box)
-{
-    // The difference is linear, so along each axis it is smallest at one of the ends.
-    int64_t least = ball.radiusSq - other.radiusSq;
-    for (int a = 0; a < 3; ++a) {
-        const auto gain = [&](int64_t at) {
-            const int64_t mine = kFine * at - ball.center[a], theirs = kFine * at - other.center[a];
-            return theirs * theirs - mine * mine;
-        };
-        least += std::min(gain(box.min()[a]), gain(box.max()[a]));
-    }
-    return least > 0;
-}
-
 } // namespace openvdb_spheretree::tight

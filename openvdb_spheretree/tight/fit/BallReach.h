@@ -34,13 +34,6 @@ struct BoxReach {
     bool isHeldBy(const ExactSphere& ball) const { return farthestSq <= ball.radiusSq; }
 };
 
-/// @return how deep the middle of a box is in a ball: its power, negated; below 0 outside.
-double powerInMiddle(const ExactSphere& ball, const openvdb::CoordBBox& box);
-
-/// @return whether every point of the box is deeper in @a ball than in @a other. So what @a other holds of the
-/// box, @a ball holds as well.
-bool hasMorePower(const ExactSphere& ball, const ExactSphere& other, const openvdb::CoordBBox& box);
-
 /// @return the smallest box of voxels that holds all voxels of @a ball; CoordBBox() if it has none.
 openvdb::CoordBBox ballBox(const ExactSphere& ball);
 

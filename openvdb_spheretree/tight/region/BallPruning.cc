@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BallPruning.h"
 
+#include "BallsInBox.h"
 #include "LeafDescent.h"
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
@@ -27,23 +28,13 @@ std::vector<std::vector<LastHeld>> lastHeldOf(const std::vector<ExactSphere>& ba
 {
     std::vector<int32_t> lastFirst(balls.size());
     std::iota(lastFirst.rbegin(), lastFirst.rend(), 0);
-    // Up to the first that holds all of the box: those after it are no voxel's last. Nor are those that hold
-    // nothing there which one before them does not hold.
+    const BallsInBox inBox(balls);
+    // Those after a ball that holds all of the box are no voxel's last. Nor are those that hold nothing there which one
+    // before them does not hold.
     const auto filter = [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
                             std::vector<int32_t>& to) {
-        int32_t deepest = -1; // of those so far, in the middle of the box
-        double most = 0;
-        for (const int32_t ball : from) {
-            const BoxReach reach(balls[ball], box);
-            if (!reach.meets(balls[ball])) continue;
-            if (deepest >= 0 && hasMorePower(balls[deepest], balls[ball], box)) continue;
-            to.push_back(ball);
-            if (reach.isHeldBy(balls[ball])) return;
-            const double power = powerInMiddle(balls[ball], box);
-            if (deepest >= 0 && power <= most) continue;
-            deepest = ball;
-            most = power;
-        }
+        StrongestBall strongest;
+        inBox.list(box, from, true, strongest, to);
     };
     std::vector<std::vector<LastHeld>> lastHeld(object.leafCount());
     const auto body = [&](std::size_t leaf, const std::vector<int32_t>& near) {

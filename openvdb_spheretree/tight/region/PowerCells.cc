@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PowerCells.h"
 
+#include "BallsInBox.h"
 #include "LeafDescent.h"
 #include "LeafPower.h"
 #include <openvdb_spheretree/base/Parallel.h>
-#include <openvdb_spheretree/tight/fit/BallReach.h>
 #include <openvdb_spheretree/tight/fit/ExtremePoints.h>
 
 #include <algorithm>
@@ -24,22 +24,14 @@ struct CellPart {
 
 /// @return a filter that drops the balls with less power, in all of a box, than the one with the most
 /// power in its middle.
-BallFilter ballsWithPower(const std::vector<ExactSphere>& balls)
+BallFilter ballsWithPower(const BallsInBox& inBox)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
                std::vector<int32_t>& to) {
-        int32_t strongest = -1;
-        double most = 0;
-        for (const int32_t ball : from) {
-            const double power = powerInMiddle(balls[ball], box);
-            if (strongest >= 0 && power <= most) continue;
-            strongest = ball;
-            most = power;
-        }
-        for (const int32_t ball : from) {
-            if (!BoxReach(balls[ball], box).meets(balls[ball])) continue;
-            if (!hasMorePower(balls[strongest], balls[ball], box)) to.push_back(ball);
-        }
+        StrongestBall strongest;
+        std::vector<int32_t> some;
+        inBox.list(box, from, false, strongest, some);
+        inBox.list(box, some, false, strongest, to);
     };
 }
 
@@ -108,6 +100,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
 std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
     const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
+    const BallsInBox inBox(balls);
     std::vector<int32_t> all(balls.size());
     std::iota(all.begin(), all.end(), 0);
     std::vector<std::vector<CellPart>> parts(object.leafCount());
@@ -116,7 +109,7 @@ std::vector<VoxelRegion> powerCells(const std::vector<ExactSphere>& balls,
         for (const int32_t ball : among) claims.push_back({ball, &object.mask(leaf)});
         parts[leaf] = partsOf(object.origin(leaf), std::move(claims), balls);
     };
-    forEachLeafWithBalls(object, std::move(all), ballsWithPower(balls), body, interrupter);
+    forEachLeafWithBalls(object, std::move(all), ballsWithPower(inBox), body, interrupter);
     return cellsOf(parts, balls.size(), object);
 }
 

@@ -2,7 +2,6 @@
 #include <openvdb_spheretree/tight/fit/BallReach.h>
 
 #include <openvdb_spheretree/sphere/LeafVoxels.h>
-#include <openvdb_spheretree/tight/fit/CoveringFit.h>
 
 #include "support/FineBalls.h"
 
@@ -132,44 +131,6 @@ TEST(BallReach, LiesInTheBoxOfItsBall)
     }
     EXPECT_EQ(ballBox(ExactSphere()), CoordBBox());
     EXPECT_EQ(ballBox({{8, 0, 0}, 49}), CoordBBox()); // between two voxels
-}
-
-TEST(BallReach, ABallWithMorePowerHoldsAllThatTheOtherHolds)
-{
-    Random random(5);
-    int more = 0, both = 0;
-    for (int turn = 0; turn < 4000; ++turn) {
-        const CoordBBox box(random.coord(-6, 0), random.coord(1, 6));
-        const ExactSphere a = randomBall(random, -9, 9, 12), b = randomBall(random, -9, 9, 12);
-        bool holdsAll = true, isDeeperInAll = true;
-        for (const Coord& v : box) {
-            const auto powerOf = [&](const ExactSphere& ball) {
-                return ball.radiusSq - radiusSqToHold(ball, voxelBall(v));
-            };
-            holdsAll = holdsAll && (!holds(b, v) || holds(a, v));
-            isDeeperInAll = isDeeperInAll && powerOf(a) > powerOf(b);
-        }
-        ASSERT_EQ(hasMorePower(a, b, box), isDeeperInAll);
-        if (isDeeperInAll) {
-            ++more;
-            ASSERT_TRUE(holdsAll);
-        }
-        both += holdsAll;
-    }
-    EXPECT_GT(more, 300);
-    EXPECT_GT(both, more);
-}
-
-TEST(BallReach, PowerInTheMiddleOfABoxIsThatOfItsMiddle)
-{
-    Random random(6);
-    for (int turn = 0; turn < 300; ++turn) {
-        const Coord lo = random.coord(-50, 50), half = random.coord(0, 9);
-        const ExactSphere ball = randomBall(random, -60, 60, 30);
-        const CoordBBox box(lo, lo + half + half);
-        const int64_t power = ball.radiusSq - radiusSqToHold(ball, voxelBall(lo + half));
-        EXPECT_EQ(powerInMiddle(ball, box), double(power));
-    }
 }
 
 } // namespace
