@@ -2,8 +2,11 @@
 #include "LeafReach.h"
 
 #include <openvdb/tree/ValueAccessor.h>
+#include <openvdb/util/NodeMasks.h>
 
 #include <algorithm>
+#include <climits>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 
@@ -18,6 +21,15 @@ constexpr uint64_t kEveryByte = 0x0101010101010101u;
 /// Bytes of which the upper n bits are on, or the lower ones.
 constexpr uint64_t upper(int n) { return kEveryByte * (0xffu & (0xff00u >> n)); }
 constexpr uint64_t lower(int n) { return kEveryByte * (0xffu & ~(0xffu << n)); }
+
+/// @return the bit that is on, of some, which is nearest to bit @a at; of two, the lower one.
+int nearestBit(uint32_t bits, int at)
+{
+    const uint32_t below = bits & ((uint32_t(2) << at) - 1), above = bits & ~below;
+    const int lower = below ? int(openvdb::util::FindHighestOn(below)) : INT_MIN / 2;
+    const int upper = above ? int(openvdb::util::FindLowestOn(above)) : INT_MAX / 2;
+    return at - lower <= upper - at ? lower : upper;
+}
 
 /// @return the origin of the leaf so many leaves away; none beyond the ends of coordinates.
 std::optional<Coord> leafBeside(const Coord& origin, int dx, int dy, int dz)
@@ -58,6 +70,7 @@ bool LeafReach::gather(const MaskTree& object, const Coord& origin)
 {
     const openvdb::tree::ValueAccessor<const MaskTree, false> accessor(object);
     Rows* const planes[3] = {&mBelow, &mMiddle, &mAbove};
+    mOrigin = origin;
     bool any = false;
     for (int n = 0; n < 27; ++n) {
         const int x = n / 9, y = n / 3 % 3, z = n % 3;
@@ -92,9 +105,8 @@ void LeafReach::widen()
 void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64_t limitSq,
     const Coord& origin, LeafMask& mask)
 {
-    if (limitSq < 0) return;
     order(distance, limitSq);
-    if (!gather(object, origin)) return;
+    if (!gather(object, origin) || limitSq < 0) return;
     widen();
     LeafMask left = mask;
     for (const Offset& offset : mOffsets) {
@@ -110,6 +122,41 @@ void LeafReach::takeNear(const MaskTree& object, const Distance& distance, int64
         if (!any) break;
     }
     mask = left;
+}
+
+/// @return the 24 voxels of a row along z, from kReach below the leaf.
+uint32_t LeafReach::column(int row) const
+{
+    uint32_t bits = 0;
+    const Rows* const planes[3] = {&mBelow, &mMiddle, &mAbove};
+    for (int z = 0; z < 3; ++z) {
+        bits |= uint32_t((*planes[z])[row / 8] >> (8 * (row % 8)) & 0xff) << (8 * z);
+    }
+    return bits;
+}
+
+int64_t LeafReach::nearest(const Coord& voxel, Coord& nearest) const
+{
+    const Coord at = voxel - mOrigin;
+    const int64_t beyond = mDistance.lengthSq(kReach + 1, 0, 0);
+    int64_t best = beyond;
+    // In squares around the voxel, each a ring of rows.
+    for (int ring = 0; ring <= kReach && mDistance.lengthSq(ring, 0, 0) < best; ++ring) {
+        for (int dx = -ring; dx <= ring; ++dx) {
+            const int step = std::abs(dx) == ring ? 1 : std::max(1, 2 * ring);
+            for (int dy = -ring; dy <= ring; dy += step) {
+                if (mDistance.lengthSq(dx, dy, 0) >= best) continue;
+                const uint32_t bits = column(kSide * (kReach + at[0] + dx) + kReach + at[1] + dy);
+                if (bits == 0) continue;
+                const int z = nearestBit(bits, kReach + at[2]) - kReach;
+                const int64_t distSq = mDistance.lengthSq(dx, dy, z - at[2]);
+                if (distSq >= best) continue;
+                best = distSq;
+                nearest = mOrigin.offsetBy(at[0] + dx, at[1] + dy, z);
+            }
+        }
+    }
+    return best < beyond ? best : -1;
 }
 
 } // namespace openvdb_spheretree::detail

@@ -9,6 +9,8 @@
 /// 3. takeNear: eight rows along y are the word of a slice, so each (dx, dy) costs eight ORs of
 ///    words; nearest rows first, until no voxel is left
 ///
+/// The same rows tell which voxel is the nearest one to a voxel of the leaf, row by row.
+///
 /// A microsecond a leaf. Exact, for every Distance. Kept by a thread from leaf to leaf.
 
 #pragma once
@@ -32,6 +34,11 @@ public:
     void takeNear(const openvdb::MaskTree& object, const Distance& distance, int64_t limitSq,
         const openvdb::Coord& origin, LeafMask& mask);
 
+    /// @param voxel    of the leaf that takeNear() was called for last
+    /// @param nearest  receives the nearest voxel of the object
+    /// @return the squared distance to it; -1 where it is farther than kReach.
+    int64_t nearest(const openvdb::Coord& voxel, openvdb::Coord& nearest) const;
+
 private:
     static constexpr int kSide = 8 + 2 * kReach; ///< of the rows around
     static constexpr int kRows = kSide * kSide;
@@ -44,12 +51,14 @@ private:
     using Rows = uint64_t[kRows / 8];
 
     void order(const Distance& distance, int64_t limitSq);
+    uint32_t column(int row) const;
     bool gather(const openvdb::MaskTree& object, const openvdb::Coord& origin);
     void widen();
 
     Distance mDistance;
     int64_t mLimitSq = -1;
     std::vector<Offset> mOffsets; ///< nearest first; of mDistance and mLimitSq
+    openvdb::Coord mOrigin;       ///< of the leaf that the rows are around
     Rows mBelow, mMiddle, mAbove; ///< by leaf along z
     Rows mWidened[kReach + 1];    ///< by how far
 };

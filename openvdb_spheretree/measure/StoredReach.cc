@@ -273,11 +273,13 @@ void ReachSearch::visitCube(
         return visit(above, scratch);
     }
     LeafMask left = cube.mask;
+    scratch.reach.takeNear(mMask, mSolid.distance(), bestSq(), cube.origin, left);
     while (!left.none()) {
         const Coord voxel = VoxelCube{cube.origin, kLeafDim, left}.first();
         Coord nearest;
-        const int64_t distSq2 = mSolid.nearest(voxel, nearest);
-        above.bound = 0.5 * std::sqrt(double(distSq2)) / mUnit;
+        const int64_t nearSq = scratch.reach.nearest(voxel, nearest);
+        above.bound = nearSq >= 0 ? std::sqrt(double(nearSq)) / mUnit
+                                  : 0.5 * std::sqrt(double(mSolid.nearest(voxel, nearest))) / mUnit;
         if (above.bound > best()) {
             LeafMask visited{};
             visited.setOn(leafIndex(voxel));

@@ -59,6 +59,45 @@ TEST(LeafReach, TakesWhatIsNearAndNothingElse)
     }
 }
 
+TEST(LeafReach, FindsTheNearestVoxel)
+{
+    std::mt19937 random(32);
+    LeafReach reach;
+    const Coord origin(-8, 120, 4096);
+    int found = 0, beyond = 0;
+    for (int round = 0; round < 60; ++round) {
+        MaskTree mask;
+        std::vector<Coord> object;
+        const int count = 1 + int(random() % 40);
+        for (int i = 0; i < count; ++i) {
+            const int side = 24, x = int(random() % side), y = int(random() % side);
+            object.push_back(origin.offsetBy(x - 8, y - 8, int(random() % side) - 8));
+            mask.setValueOn(object.back());
+        }
+        const Distance distance = kDistances[random() % kDistances.size()];
+        LeafMask leaf = LeafMask::full();
+        reach.takeNear(mask, distance, 1, origin, leaf);
+        for (int i = 0; i < 512; ++i) {
+            const Coord voxel = origin.offsetBy(i >> 6, i >> 3 & 7, i & 7);
+            const auto distSqTo = [&](const Coord& other) {
+                const Coord d = other - voxel;
+                return distance.lengthSq(d[0], d[1], d[2]);
+            };
+            int64_t least = distSqTo(object.front());
+            for (const Coord& other : object) least = std::min(least, distSqTo(other));
+            const bool isBeyond = least >= distance.lengthSq(LeafReach::kReach + 1, 0, 0);
+            Coord nearest;
+            ASSERT_EQ(reach.nearest(voxel, nearest), isBeyond ? -1 : least) << toString(distance);
+            (isBeyond ? beyond : found) += 1;
+            if (isBeyond) continue;
+            ASSERT_EQ(distSqTo(nearest), least);
+            ASSERT_TRUE(mask.isValueOn(nearest));
+        }
+    }
+    EXPECT_GT(found, 5000);
+    EXPECT_GT(beyond, 500);
+}
+
 TEST(LeafReach, ReachesNoFartherThanItsReachWhateverTheLimit)
 {
     MaskTree mask;
