@@ -9,7 +9,7 @@
 namespace spheretree_test {
 
 MergedLeaves::MergedLeaves(const Voxels& some, bool flat, const FitEffort& effort)
-    : voxels(some), object(sampled(voxels)), maker{object, effort, flat, nullptr}
+    : voxels(some), object(sampled(voxels)), maker{{effort}, object, flat, nullptr}
 {
     using namespace openvdb_spheretree::tight;
     leaves = fineBalls(CoreStages(*maskOf(voxels)).balls);

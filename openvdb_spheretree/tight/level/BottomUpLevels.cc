@@ -72,6 +72,9 @@ TightLevel parentLevel(TightLevel& finer, const Units& units,
     return level;
 }
 
+TightLevel placedParentLevel(TightLevel& finer, const std::vector<VoxelRegion>& regions,
+    int64_t count, const LevelMaker& maker);
+
 /// As parentLevel(), but decided at half the resolution, or at less. Each ball then grows until it holds the units of
 /// its children.
 TightLevel parentLevelOf(const HalvedObject& halved, TightLevel& finer, const Units& units,
@@ -88,11 +91,11 @@ TightLevel parentLevelOf(const HalvedObject& halved, TightLevel& finer, const Un
         ball.radiusSq = radiusSqToHold(ball, held[i]);
     }
     TightLevel level =
-        coarserLevel(halvedFiner, halvedRegions, count, maker.forObject(halved.object()));
+        placedParentLevel(halvedFiner, halvedRegions, count, maker.forObject(halved.object()));
     finer.parent = halvedFiner.parent;
     for (ExactSphere& ball : level.balls) {
         ball = lifted(ball, halved.step());
-        ball.radiusSq = 0;
+        ball.radiusSq = 0; // it grows below
     }
     for (std::size_t i = 0; i < units.size(); ++i) {
         ExactSphere& parent = level.balls[std::size_t(finer.parent[i])];
@@ -135,16 +138,24 @@ void placeAbove(TightLevel& level, TightLevel& finer, const std::vector<VoxelReg
     dropChildless(level, finer);
 }
 
-} // namespace
-
-TightLevel coarserLevel(
-    TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+/// Decides on a level, and places its balls anew. Recursion: as deep as the resolution can be halved.
+TightLevel placedParentLevel(TightLevel& finer, const std::vector<VoxelRegion>& regions,
+    int64_t count, const LevelMaker& maker)
 {
     const SampleLevel& object = maker.object.level(0);
     const Units units = extremePoints(
         powerCells(finer.balls, regions, object, maker.interrupter), object, maker.interrupter);
     TightLevel level = suitedParentLevel(finer, units, regions, count, maker);
     placeAbove(level, finer, regions, maker);
+    return level;
+}
+
+} // namespace
+
+TightLevel coarserLevel(
+    TightLevel& finer, std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
+{
+    TightLevel level = placedParentLevel(finer, regions, count, maker);
     regions = heldBelow(level.balls, regions, finer.parent, maker);
     return level;
 }

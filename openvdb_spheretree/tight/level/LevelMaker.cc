@@ -165,36 +165,8 @@ double LevelMaker::costOf(const std::vector<ExactSphere>& balls) const
 LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, detail::StepProgress* interrupter)
 {
-    const bool flat = settings.dim == 2;
-    const Quality quality = settings.tight().quality;
-    if (quality == Quality::Fast) {
-        LevelMaker fast{object, {false, 4, 1, false, 16}, flat, interrupter};
-        fast.sweeps = kFewSweeps;
-        fast.neighbours = 2;
-        fast.placesStart = false;
-        fast.merging.diagonals = false;
-        fast.dilatedPerBall = 1.5;
-        fast.memory = settings.memory;
-        return fast;
-    }
-    // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
-    // for each ball of a larger object would grow.
-    constexpr double kMost = 40, kLeast = 16, kFew = 4000;
-    const double samples =
-        std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
-    LevelMaker maker{object, {true, 12, 1, false, int(samples)}, flat, interrupter};
-    maker.merging.samples = int(samples);
-    maker.memory = settings.memory;
-    maker.searchedUpTo = kFewBalls + kFewBalls / 8; // as many more as a coarse object gets
-    if (quality == Quality::Best) {
-        maker.fit.restarts = true;
-        maker.relocations = 6;
-        maker.searchedUpTo = INT64_MAX;
-        maker.searches = 6;
-        maker.trialsPerBall = 40;
-        maker.dilatedPerBall = 4;
-    }
-    return maker;
+    return {effortOf(settings.tight().quality, leafBalls), object, settings.dim == 2, interrupter,
+        settings.memory};
 }
 
 int64_t halvedTowards(int64_t many, int64_t count)

@@ -4,8 +4,8 @@
 
 #pragma once
 
+#include "LevelEffort.h"
 #include <openvdb_spheretree/base/StepProgress.h>
-#include <openvdb_spheretree/tight/fit/BallFit.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 #include <openvdb_spheretree/tight/merge/CoverBall.h>
 #include <openvdb_spheretree/tight/region/VoxelRegion.h>
@@ -24,36 +24,17 @@ namespace openvdb_spheretree::tight {
 /// Extreme points of what each ball of a cover has to hold.
 using HeldPoints = std::vector<std::vector<openvdb::Coord>>;
 
-struct LevelMaker {
+/// What the levels of an object are made with.
+struct LevelMaker : LevelEffort {
     const SampledObject& object;
-    FitEffort fit; ///< of balls that are placed anew
     bool flat;
     detail::StepProgress* interrupter; ///< may be null; what its steps cost, LevelWork.h says
-    /// Of balls that two are merged to. Without diagonals, Al.100 has 1.7 % of error with 512 balls, in
-    /// place of 1.3.
-    FitEffort merging{true, 4, 1, false, 16};
-    int neighbours = 3; ///< that a ball may merge with: 6 gain little
-    int sweeps = 10;    ///< of placing anew
-    /// Leaf balls that are merged are placed anew, first half as many more where they were not dilated. Else only
-    /// where they are few.
-    bool placesStart = true;
-    /// Many leaf balls are dilated and pruned (DilatedCover.h) to about so many times as many as they are merged to then:
-    /// dilatedFor().
-    double dilatedPerBall = 1.33;
-    int64_t memory = 0; ///< as of SphereTreeSettings
-    /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
-    /// from one of them to another.
-    int64_t searchedUpTo = 0;
-    int searches = 1;      ///< of a level, at most
-    int trialsPerBall = 8; ///< of a search, at most
-    /// As of SearchEffort. 6 take half as long again, and gain only in long searches.
-    std::size_t relocations = 3;
+    int64_t memory = 0;                ///< as of SphereTreeSettings
 
-    /// @return the same for another object, such as a coarser one: with all members.
+    /// @return the same for another object, such as a coarser one.
     LevelMaker forObject(const SampledObject& other) const
     {
-        return {other, fit, flat, interrupter, merging, neighbours, sweeps, placesStart,
-            dilatedPerBall, memory, searchedUpTo, searches, trialsPerBall, relocations};
+        return {*this, other, flat, interrupter, memory};
     }
 
     /// @return `merging`; with diagonals where few balls are left: of dragon-512 64 have 72 in place of 77 % with
@@ -113,9 +94,6 @@ struct LevelMaker {
 /// @param interrupter  may be null
 LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, detail::StepProgress* interrupter);
-
-/// Up to so many balls are few: more gain less from starts than they lose by what is above them.
-constexpr int64_t kFewBalls = 64;
 
 /// A ball is large if the object has more leaf nodes than that for each: half the resolution is enough to decide
 /// what hangs below it. (dragon-512, 64 balls: 66.2 in place of 65.5 %, in two thirds of the tree's time; with half

@@ -167,10 +167,8 @@ void VoxelGoal::collectUncovered(const std::vector<CoverBall>& removed,
     points = extreme.finish();
 }
 
-UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units, std::vector<int32_t> groups)
-    : mUnits(units), mGroups(std::move(groups))
+UnitGoal::UnitGoal(const std::vector<std::vector<Coord>>& units) : mUnits(units)
 {
-    mGroups.resize(units.size(), 0);
     for (std::size_t i = 0; i < units.size(); ++i) {
         FineBox box;
         for (const Coord& p : units[i]) box.expand(voxelBall(p));
@@ -186,7 +184,7 @@ void UnitGoal::collectUncovered(const std::vector<CoverBall>& removed,
         if (ball.empty()) continue;
         for (const int32_t unit : mGrid.near(ball.ball)) {
             const auto holds = [&](const CoverBall& other) {
-                return other.group == mGroups[unit] && holdsAll(other.ball, mUnits[unit]);
+                return holdsAll(other.ball, mUnits[unit]);
             };
             if (!holds(ball) || std::any_of(others.begin(), others.end(), holds)) continue;
             points.insert(points.end(), mUnits[unit].begin(), mUnits[unit].end());

@@ -54,16 +54,13 @@ private:
 
 class UnitGoal : public CoverGoal {
 public:
-    /// @param units   extreme points of each
-    /// @param groups  of the units; empty: all are in group 0
-    explicit UnitGoal(
-        const std::vector<std::vector<openvdb::Coord>>& units, std::vector<int32_t> groups = {});
+    /// @param units  extreme points of each; a ball counts whatever its group
+    explicit UnitGoal(const std::vector<std::vector<openvdb::Coord>>& units);
     void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const override;
 
 private:
     const std::vector<std::vector<openvdb::Coord>>& mUnits;
-    std::vector<int32_t> mGroups;
     BallGrid mGrid; ///< of balls around units
 };
 

@@ -42,7 +42,7 @@ TEST(FreeCovers, OfManyLeafBallsBeginWithDilatedOnes)
     const Voxels voxels = shapes::noise(Coord(50, 44, 34), 0.8, random);
     const SampledObject object = sampled(voxels);
     const std::vector<ExactSphere> leaves = fineBalls(CoreStages(*maskOf(voxels)).balls);
-    const LevelMaker maker{object, {false, 4, 1, false, 16}, false, nullptr};
+    const LevelMaker maker{{{false, 4, 1, false, 16}}, object, false, nullptr};
     ASSERT_GT(maker.dilatedFor(int64_t(leaves.size()), 1050), 0); // of 700, half as many more
     LevelMaker without(maker);
     without.dilatedPerBall = 100;

@@ -83,14 +83,11 @@ TEST(CoverGoal, IsWhatOnlyTheLiftedBallsHold)
         std::vector<Unit> alone, units;
         for (const Coord& v : voxels) alone.push_back({{v}, {0, 1, 2}});
         std::vector<Voxels> unitVoxels;
-        std::vector<int32_t> unitGroups;
         for (int i = 0; i < 30; ++i) {
             unitVoxels.push_back(translated(shapes::box(random.coord(1, 4)), random.coord(0, 12)));
-            unitGroups.push_back(int32_t(random.between(0, 1)));
-            units.push_back({unitVoxels.back(), {unitGroups.back()}});
+            units.push_back({unitVoxels.back(), {0, 1, 2}});
         }
         unitVoxels.emplace_back(); // a unit of nothing
-        unitGroups.push_back(0);
         const auto removed = randomCover(1 + turn % 2, 2, random);
         auto others = randomCover(turn % 4, kGroups, random);
         others.emplace_back();         // one that was dropped
@@ -100,7 +97,7 @@ TEST(CoverGoal, IsWhatOnlyTheLiftedBallsHold)
         VoxelGoal(object.level(0), regions).collectUncovered(removed, others, points);
         ASSERT_TRUE(standFor(points, uncovered(inRegions, removed, others), random));
         someInGroups += !points.empty();
-        UnitGoal(unitVoxels, unitGroups).collectUncovered(removed, others, points);
+        UnitGoal(unitVoxels).collectUncovered(removed, others, points);
         ASSERT_TRUE(standFor(points, uncovered(units, removed, others), random));
         some += !points.empty();
     }
