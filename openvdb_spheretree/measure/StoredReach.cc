@@ -18,6 +18,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace openvdb_spheretree::detail {
@@ -116,9 +117,16 @@ public:
         std::array<Task, 8> tasks;
         std::vector<int> order;
     };
+    /// The blocks of 4^3 leaves in a cube of 128 voxels: whether no voxel of one is farther than B.
+    struct NearBlocks {
+        static constexpr int32_t kCube = 128, kBlock = 32;
+        openvdb::Coord cube = openvdb::Coord::max();
+        std::array<std::optional<bool>, 64> isNear;
+    };
     struct Scratch {
         std::vector<std::unique_ptr<Halves>> depths;
         std::vector<VoxelCube> cubes;
+        NearBlocks blocks;
         LeafReach reach;
     };
 
@@ -127,7 +135,8 @@ public:
         Scratch& scratch);
 
 private:
-    bool dismissed(const VoxelCube& leaf) const;
+    bool isNear(const Coord& origin, int32_t size) const;
+    bool isInNearBlock(const Coord& leaf, NearBlocks& blocks) const;
     void visitGroup(const std::vector<const VoxelCube*>& cubes, int32_t size,
         const std::vector<int32_t>& spheres, Scratch& scratch);
     void visitCube(const VoxelCube& cube, const std::vector<int32_t>& spheres, Scratch& scratch);
@@ -205,17 +214,29 @@ Cell ReachSearch::cellOf(const Coord& origin, int32_t size) const
     return cell;
 }
 
-/// @return whether no voxel of a leaf is farther than B.
-bool ReachSearch::dismissed(const VoxelCube& leaf) const
+/// @return whether no voxel of a cube is farther than B, for all that one query tells.
+bool ReachSearch::isNear(const Coord& origin, int32_t size) const
 {
-    const int64_t side = leaf.size - 1;
+    const int64_t side = size - 1;
     constexpr double kLess = 1 - 1e-12;
     const double diagonal = std::sqrt(double(mSolid.distance().lengthSq(side, side, side)));
     const double reach = 2 * mUnit * best() * kLess - diagonal / kLess; // doubled coordinates
     if (reach < 0) return false;
     int64_t center2[3];
-    for (int a = 0; a < 3; ++a) center2[a] = 2 * int64_t(leaf.origin[a]) + side;
+    for (int a = 0; a < 3; ++a) center2[a] = 2 * int64_t(origin[a]) + side;
     return mSolid.anyWithin(center2, int64_t(reach * reach * kLess));
+}
+
+/// Where B is many voxels, one query for a block spares those for its leaves.
+bool ReachSearch::isInNearBlock(const Coord& leaf, NearBlocks& blocks) const
+{
+    const Coord cube = leaf & ~(NearBlocks::kCube - 1);
+    if (cube != blocks.cube) blocks = {cube, {}};
+    const Coord place = (leaf - cube) >> 5;
+    std::optional<bool>& known =
+        blocks.isNear[std::size_t(16 * place[0] + 4 * place[1] + place[2])];
+    if (!known) known = isNear(leaf & ~(NearBlocks::kBlock - 1), NearBlocks::kBlock);
+    return *known;
 }
 
 void ReachSearch::visitNode(const MaskMinus& touched, std::size_t node,
@@ -226,7 +247,8 @@ void ReachSearch::visitNode(const MaskMinus& touched, std::size_t node,
     int32_t size = 2 * kLeafDim;
     for (VoxelCube& cube : scratch.cubes) {
         if (cube.size == kLeafDim) {
-            if (dismissed(cube)) continue;
+            if (isInNearBlock(cube.origin, scratch.blocks)) continue;
+            if (isNear(cube.origin, kLeafDim)) continue;
             scratch.reach.takeNear(mMask, mSolid.distance(), bestSq(), cube.origin, cube.mask);
             if (cube.mask.none()) continue;
         }

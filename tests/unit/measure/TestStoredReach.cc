@@ -202,6 +202,29 @@ TEST_F(StoredReach, IsNeverLessThanWhatPointsOfTheSpheresReachAndHardlyMore)
     }
 }
 
+/// Most leaves are near enough by blocks.
+TEST_F(StoredReach, IsThatOfTheFarthestOfLargeSpheresAroundAVoxel)
+{
+    std::mt19937 random(9);
+    const auto within = [&](double lo, double hi) {
+        return std::uniform_real_distribution<double>(lo, hi)(random);
+    };
+    MaskTree object;
+    object.setValueOn(Coord(0));
+    for (int round = 0; round < 12; ++round) {
+        std::vector<ReachSphere> spheres;
+        double farthest = 0;
+        for (int i = 0; i < 4; ++i) {
+            const Vec3d center(within(-90, 90), within(-90, 90), within(-90, 90));
+            spheres.push_back({center, within(30, 70)});
+            farthest = std::max(farthest, center.length() + spheres.back().radius);
+        }
+        const double reach = reachOf(spheres, object);
+        EXPECT_LE(reach, farthest + kTolerance);
+        EXPECT_GE(reach, farthest - std::sqrt(0.75)); // to the cube of the voxel
+    }
+}
+
 TEST_F(StoredReach, BoundsTheBallsOfNorms)
 {
     for (const Distance& norm : {Distance::l1(), Distance::linf(), Distance::chamfer(3, 4, 5)}) {
