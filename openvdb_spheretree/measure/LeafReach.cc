@@ -143,7 +143,7 @@ int64_t LeafReach::nearest(const Coord& voxel, Coord& nearest) const
     // In squares around the voxel, each a ring of rows.
     for (int ring = 0; ring <= kReach && mDistance.lengthSq(ring, 0, 0) < best; ++ring) {
         for (int dx = -ring; dx <= ring; ++dx) {
-            const int step = std::abs(dx) == ring ? 1 : std::max(1, 2 * ring);
+            const int step = std::abs(dx) == ring ? 1 : 2 * ring;
             for (int dy = -ring; dy <= ring; dy += step) {
                 if (mDistance.lengthSq(dx, dy, 0) >= best) continue;
                 const uint32_t bits = column(kSide * (kReach + at[0] + dx) + kReach + at[1] + dy);

@@ -30,13 +30,13 @@ public:
     static constexpr int kReach = 8;
 
     /// Takes those voxels off the mask of the leaf at @a origin that are within the squared
-    /// distance @a limitSq of the object, or within kReach voxels where that is less.
+    /// distance @a limitSq of the object, and nearer than kReach + 1 voxels.
     void takeNear(const openvdb::MaskTree& object, const Distance& distance, int64_t limitSq,
         const openvdb::Coord& origin, LeafMask& mask);
 
     /// @param voxel    of the leaf that takeNear() was called for last
     /// @param nearest  receives the nearest voxel of the object
-    /// @return the squared distance to it; -1 where it is farther than kReach.
+    /// @return the squared distance to it; -1 where it is kReach + 1 voxels or more.
     int64_t nearest(const openvdb::Coord& voxel, openvdb::Coord& nearest) const;
 
 private:

@@ -117,11 +117,12 @@ public:
         std::array<Task, 8> tasks;
         std::vector<int> order;
     };
-    /// The blocks of 4^3 leaves in a cube of 128 voxels: whether no voxel of one is farther than B.
+    /// For each block of 4^3 leaves in a cube of 128 voxels: whether one query has dismissed it; none where it was not
+    /// asked. B only grows, so a block that is dismissed stays so.
     struct NearBlocks {
-        static constexpr int32_t kCube = 128, kBlock = 32;
+        static constexpr int32_t kCube = 128, kBlock = 32, kAcross = kCube / kBlock;
         openvdb::Coord cube = openvdb::Coord::max();
-        std::array<std::optional<bool>, 64> isNear;
+        std::array<std::optional<bool>, kAcross * kAcross * kAcross> isNear;
     };
     struct Scratch {
         std::vector<std::unique_ptr<Halves>> depths;
@@ -232,9 +233,11 @@ bool ReachSearch::isInNearBlock(const Coord& leaf, NearBlocks& blocks) const
 {
     const Coord cube = leaf & ~(NearBlocks::kCube - 1);
     if (cube != blocks.cube) blocks = {cube, {}};
-    const Coord place = (leaf - cube) >> 5;
-    std::optional<bool>& known =
-        blocks.isNear[std::size_t(16 * place[0] + 4 * place[1] + place[2])];
+    std::size_t place = 0;
+    for (int a = 0; a < 3; ++a) {
+        place = place * NearBlocks::kAcross + std::size_t((leaf[a] - cube[a]) / NearBlocks::kBlock);
+    }
+    std::optional<bool>& known = blocks.isNear[place];
     if (!known) known = isNear(leaf & ~(NearBlocks::kBlock - 1), NearBlocks::kBlock);
     return *known;
 }

@@ -9,8 +9,10 @@
 /// 1. seed: the distances of some points of spheres, a lower bound B from the start.
 /// 2. visitNode: voxels that a sphere may touch (and that the object has not) go by words where
 ///    they are within B of the object's nearest voxel, as in FarthestVoxel.cc: a point is as far
-///    from a voxel's cube as its own voxel is from that voxel, at most. The voxels that are left are
-///    cells, with that distance for a bound; so are tiles, without.
+///    from a voxel's cube as its own voxel is from that voxel, at most. Before that, blocks of 4^3
+///    leaves, and then leaves, are dismissed where one query tells that all of their voxels are that
+///    near. The voxels that are left are cells, with that distance for a bound (LeafReach.h knows it
+///    where it is small); so are tiles, without.
 /// 3. visitGroup: which spheres meet a cell, from the node down.
 /// 4. visit: cells are halved along all axes. One that no sphere meets is dropped. So is one with a
 ///    bound of at most B. The bound of a cell is the smallest of three:
@@ -34,7 +36,8 @@
 /// alone, so it is the same for any number of threads. Where distances are those of a norm, step 4
 /// has its first bound only, and cells end at 1/4 voxel.
 ///
-/// Cost: a microsecond a leaf of the spheres' surface, and about as much a cell. Few cells are
+/// Cost: a microsecond a leaf of the spheres' surface, less where B is 27 voxels or more, and about
+/// as much a cell. Few cells are
 /// looked at but where very many spheres reach nearly as far as the farthest one: leaf balls of a
 /// few voxels with padding (a gyroid of 300,000 voxels and 53,000 balls: 870,000 cells; its other
 /// levels together: 52,000).

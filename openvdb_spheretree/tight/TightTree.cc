@@ -61,8 +61,10 @@ std::unique_ptr<MergeModel> modelFor(
 }
 
 /// @throw openvdb::ValueError if making levels from the leaf balls needs more memory than there may be
-void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory)
+void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory,
+    openvdb::util::NullInterrupter* interrupter)
 {
+    const detail::Stage stage("memory", interrupter, nullptr);
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
     if (!coarse.steps.empty()) { // to which they are carried
         const int64_t finest = detail::leafNodesOf(*coarse.levels.front());
@@ -73,7 +75,7 @@ void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory)
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
     needed.addSamples(leafNodes).addMerging(leafBalls.size());
-    if (withRegions) needed.addRegions(leafBalls, coarse.samples.level(0));
+    if (withRegions) needed.addRegions(leafBalls, coarse.samples.level(0), interrupter);
     needed.require(memory,
         "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");
 }
@@ -318,7 +320,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Ti
     const auto leafCount = int64_t(leaves.balls.size());
     const bool allLeaves = onObject && !options.budget.hasBound()
         && options.budget.counts(leafCount).front() == leafCount;
-    requireRoom(coarse, makesLeafRegions(options, allLeaves), settings.memory);
+    requireRoom(coarse, makesLeafRegions(options, allLeaves), settings.memory, interrupter);
     const auto levels = detail::timed("levels", interrupter, &seconds->tree, [&] {
         detail::StepProgress progress(interrupter);
         const LevelMaker maker =

@@ -138,7 +138,7 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
 WorkingMemory LevelMaker::regionMemory(const std::vector<ExactSphere>& balls) const
 {
     const SampleLevel& voxels = object.level(0);
-    return WorkingMemory().addSamples(voxels.leafCount()).addRegions(balls, voxels);
+    return WorkingMemory().addSamples(voxels.leafCount()).addRegions(balls, voxels, interrupter);
 }
 
 void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const

@@ -7,38 +7,16 @@
 
 #include <hwy/highway.h>
 
-#include <openvdb_spheretree/tight/fit/FineSphere.h>
-
 #include <algorithm>
-
-#ifndef OPENVDB_SPHERETREE_BOX_MIDDLE
-#define OPENVDB_SPHERETREE_BOX_MIDDLE
-namespace openvdb_spheretree::tight {
-
-/// A box by its middle and half its sides, 1/16 voxel.
-struct BoxMiddle {
-    explicit BoxMiddle(const openvdb::CoordBBox& box)
-    {
-        for (int a = 0; a < 3; ++a) {
-            const double first = double(kFine) * box.min()[a], last = double(kFine) * box.max()[a];
-            middle[a] = 0.5 * (first + last);
-            half[a] = 0.5 * (last - first);
-        }
-    }
-
-    double middle[3], half[3];
-};
-
-constexpr std::size_t kMostLanes = 8;
-
-} // namespace openvdb_spheretree::tight
-#endif
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace openvdb_spheretree::tight {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 8;
 
 /// Lists the balls of @a from that matter, in order.
 /// @param strongest  as of BallsInBox::list()
@@ -88,7 +66,7 @@ std::size_t listBalls(const BallArrays& balls, const BoxMiddle& box,
                     along(z, balls.z, box.middle[2], halfZ)));
             const auto most = hn::Set(d, strongest.power);
             const auto least = hn::Sub(hn::Sub(most, power), hn::Add(across, across));
-            const auto terms = hn::Add(hn::Abs(most), hn::Add(radiusSq, apartSq));
+            const auto terms = hn::Add(hn::Set(d, strongest.size), hn::Add(radiusSq, apartSq));
             const auto isWeaker = hn::Gt(least, hn::Mul(terms, hn::Set(d, kRounding)));
             matters = hn::AndNot(isWeaker, matters);
         }
@@ -102,7 +80,7 @@ std::size_t listBalls(const BallArrays& balls, const BoxMiddle& box,
         HWY_ALIGN double powers[kMostLanes];
         hn::Store(power, d, powers);
         const std::size_t k = std::size_t(std::max_element(powers, powers + lanes) - powers);
-        strongest = {ids[k], powers[k]};
+        strongest = {ids[k], powers[k], std::abs(2 * balls.radiusSq[ids[k]] - powers[k])};
         if (!untilHeld) continue;
         double farthestSq = 0;
         const double* const axes[3] = {balls.x, balls.y, balls.z};

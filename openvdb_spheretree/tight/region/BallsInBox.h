@@ -7,12 +7,12 @@
 /// the most in the middle of the box. A difference of two powers is linear, so along each axis it is smallest at
 /// one of the ends.
 ///
-/// Cost: about 4 ns a ball and box. In doubles, with room for rounding: a ball that does not matter may be
-/// listed, but none that matters is left out.
+/// Cost: about 4 ns a ball and box. In doubles, with room for rounding, so that balls of any size are compared
+/// safely: a ball that does not matter may be listed, but none that matters is left out.
 
 #pragma once
 
-#include <openvdb_spheretree/sphere/ExactSphere.h>
+#include <openvdb_spheretree/tight/fit/FineSphere.h>
 
 #include <openvdb/Types.h>
 
@@ -26,11 +26,26 @@ namespace openvdb_spheretree::tight {
 struct StrongestBall {
     int32_t ball = -1; ///< none
     double power = -std::numeric_limits<double>::infinity();
+    double size = 0; ///< radiusSq + distance^2: the power is rounded by a share of it
 };
 
 /// What the kernel reads of the balls.
 struct BallArrays {
     const double *x, *y, *z, *radiusSq; ///< 1/16 voxel
+};
+
+/// A box by its middle and half its sides, 1/16 voxel.
+struct BoxMiddle {
+    explicit BoxMiddle(const openvdb::CoordBBox& box)
+    {
+        for (int a = 0; a < 3; ++a) {
+            const double first = double(kFine) * box.min()[a], last = double(kFine) * box.max()[a];
+            middle[a] = 0.5 * (first + last);
+            half[a] = 0.5 * (last - first);
+        }
+    }
+
+    double middle[3], half[3];
 };
 
 class BallsInBox {
@@ -39,8 +54,8 @@ public:
 
     /// Appends to @a to those of @a from that meet the box, in order, but for some that have less power in all of
     /// it than the strongest one so far.
-    /// @param strongest  of balls before these; receives that of all
-    /// @param untilHeld  end with a ball that holds all of the box
+    /// @param untilHeld  stop soon after a strongest ball that holds all of the box: what follows may be left out
+    /// @param strongest  of the same box, of balls before these; receives that of those looked at
     void list(const openvdb::CoordBBox& box, const std::vector<int32_t>& from, bool untilHeld,
         StrongestBall& strongest, std::vector<int32_t>& to) const;
 

@@ -24,11 +24,11 @@ WorkingMemory& WorkingMemory::addMerging(std::size_t balls)
     return *this;
 }
 
-WorkingMemory& WorkingMemory::addRegions(
-    const std::vector<ExactSphere>& balls, const SampleLevel& object)
+WorkingMemory& WorkingMemory::addRegions(const std::vector<ExactSphere>& balls,
+    const SampleLevel& object, openvdb::util::NullInterrupter* interrupter)
 {
     std::vector<RegionSize> sizes(balls.size());
-    detail::parallelFor(balls.size(), nullptr, [&](std::size_t i) {
+    detail::parallelFor(balls.size(), interrupter, [&](std::size_t i) {
         const ExactSphere& ball = balls[i];
         object.forEachLeaf(ballBox(ball), [&](std::size_t leaf) {
             const auto box = openvdb::CoordBBox::createCube(object.origin(leaf), kLeafDim);

@@ -7,6 +7,8 @@
 #include <openvdb_spheretree/tight/fit/FineSphere.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,7 +25,9 @@ struct WorkingMemory {
     WorkingMemory& addMerging(std::size_t balls);
     /// The voxels of each ball of a level (VoxelRegion.h), and below those of the next coarser one. Parallel; a look at
     /// each leaf node that a ball meets.
-    WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, const SampleLevel& object);
+    /// @param interrupter  may be null
+    WorkingMemory& addRegions(const std::vector<ExactSphere>& balls, const SampleLevel& object,
+        openvdb::util::NullInterrupter* interrupter);
     /// About the same for an object that is not there, of so many leaf nodes.
     WorkingMemory& guessRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 

@@ -59,8 +59,9 @@ TEST(LeafReach, TakesWhatIsNearAndNothingElse)
     }
 }
 
-TEST(LeafReach, FindsTheNearestVoxel)
+TEST(LeafReach, FindsTheNearestVoxelWhateverTheLimit)
 {
+    const std::vector<int64_t> kLimits = {-1, 0, 1, int64_t(1) << 60};
     std::mt19937 random(32);
     LeafReach reach;
     const Coord origin(-8, 120, 4096);
@@ -76,7 +77,7 @@ TEST(LeafReach, FindsTheNearestVoxel)
         }
         const Distance distance = kDistances[random() % kDistances.size()];
         LeafMask leaf = LeafMask::full();
-        reach.takeNear(mask, distance, 1, origin, leaf);
+        reach.takeNear(mask, distance, kLimits[random() % kLimits.size()], origin, leaf);
         for (int i = 0; i < 512; ++i) {
             const Coord voxel = origin.offsetBy(i >> 6, i >> 3 & 7, i & 7);
             const auto distSqTo = [&](const Coord& other) {
@@ -121,6 +122,9 @@ TEST(LeafReach, ATileIsAllOfItsVoxels)
     LeafMask leaf = LeafMask::full();
     reach.takeNear(mask, {}, 9, Coord(0), leaf); // three slices
     for (int x = 0; x < 8; ++x) EXPECT_EQ(leaf[x], x < 3 ? 0 : ~uint64_t(0)) << x;
+    Coord nearest;
+    EXPECT_EQ(reach.nearest(Coord(7, 2, 3), nearest), 64);
+    EXPECT_EQ(nearest, Coord(-1, 2, 3));
 }
 
 TEST(LeafReach, WhereNothingIsNearAllStays)
@@ -148,8 +152,12 @@ TEST(LeafReach, SeesNothingBeyondTheEndsOfCoordinates)
         LeafMask mask = LeafMask::full();
         reach.takeNear(atFirst, distance, 25, last, mask); // the other end of the world is not near
         EXPECT_EQ(mask.count(), kLeafVoxels);
+        Coord nearest;
+        EXPECT_EQ(reach.nearest(Coord(INT32_MAX), nearest), -1);
         reach.takeNear(atLast, distance, 0, last, mask);
         EXPECT_EQ(mask.count(), kLeafVoxels - 1);
+        EXPECT_EQ(reach.nearest(Coord(INT32_MAX), nearest), 0);
+        EXPECT_EQ(nearest, Coord(INT32_MAX));
         mask = LeafMask::full();
         reach.takeNear(atFirst, distance, 0, first, mask);
         EXPECT_EQ(mask.count(), kLeafVoxels - 1);

@@ -202,27 +202,71 @@ TEST_F(StoredReach, IsNeverLessThanWhatPointsOfTheSpheresReachAndHardlyMore)
     }
 }
 
-/// Most leaves are near enough by blocks.
-TEST_F(StoredReach, IsThatOfTheFarthestOfLargeSpheresAroundAVoxel)
-{
-    std::mt19937 random(9);
-    const auto within = [&](double lo, double hi) {
-        return std::uniform_real_distribution<double>(lo, hi)(random);
-    };
-    MaskTree object;
-    object.setValueOn(Coord(0));
-    for (int round = 0; round < 12; ++round) {
-        std::vector<ReachSphere> spheres;
-        double farthest = 0;
-        for (int i = 0; i < 4; ++i) {
-            const Vec3d center(within(-90, 90), within(-90, 90), within(-90, 90));
-            spheres.push_back({center, within(30, 70)});
-            farthest = std::max(farthest, center.length() + spheres.back().radius);
+/// Two voxels, and a ball between them. Nearly all leaves are dismissed by blocks, and the farthest points are as far
+/// from one voxel as from the other: seeds, which flee from the nearest one, do not find them.
+struct BetweenTwoVoxels {
+    explicit BetweenTwoVoxels(int flatAxis) : ball{Vec3d(0), 90}
+    {
+        for (const int at : {-60, 60}) {
+            Coord voxel(at);
+            if (flatAxis >= 0) voxel[flatAxis] = 0;
+            object.setValueOn(voxel);
         }
-        const double reach = reachOf(spheres, object);
-        EXPECT_LE(reach, farthest + kTolerance);
-        EXPECT_GE(reach, farthest - std::sqrt(0.75)); // to the cube of the voxel
     }
+
+    MaskTree object;
+    ReachSphere ball;
+};
+
+TEST_F(StoredReach, IsThatOfPointsAsFarFromTwoVoxels)
+{
+    const BetweenTwoVoxels given(-1);
+    const std::vector<Coord> voxels = voxelsOf(given.object);
+    double farthest = 0;
+    const Vec3d u = Vec3d(1, -1, 0).unit(), v = Vec3d(1, 1, -2).unit(); // across the diagonal
+    for (int i = 0; i < 10000; ++i) {
+        const double angle = i * 0.001;
+        const Vec3d point = given.ball.radius * (std::cos(angle) * u + std::sin(angle) * v);
+        farthest = std::max(farthest, distanceToCubes(point, voxels, {}));
+    }
+    EXPECT_GT(farthest, 136);
+    double alone = 0;
+    for (const int threads : {1, 4}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        const double reach = reachOf({given.ball}, given.object);
+        EXPECT_GE(reach, farthest);
+        EXPECT_LE(reach, farthest + kTolerance);
+        if (threads == 1) alone = reach;
+        EXPECT_EQ(reach, alone);
+    }
+}
+
+TEST_F(StoredReach, IsThatOfPointsAsFarFromTwoVoxelsOfAPlane)
+{
+    const BetweenTwoVoxels given(2);
+    const double across = given.ball.radius / std::sqrt(2.0);
+    const double farthest = distanceToCubes(Vec3d(across, -across, 0), voxelsOf(given.object), {});
+    const double reach = reachOf({given.ball}, given.object, {}, 2);
+    EXPECT_GE(reach, farthest - 1e-9);
+    EXPECT_LE(reach, farthest + kTolerance);
+}
+
+TEST_F(StoredReach, IsThatOfPointsAsFarFromTwoVoxelsByANorm)
+{
+    const BetweenTwoVoxels given(-1);
+    const std::vector<Coord> voxels = voxelsOf(given.object);
+    const Distance norm = Distance::chamfer(3, 4, 5);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-1, 1);
+    double sampled = 0;
+    for (int i = 0; i < 100000; ++i) {
+        Vec3d offset(place(random), place(random), place(random));
+        offset *= given.ball.radius * norm.unit() / norm.length(offset[0], offset[1], offset[2]);
+        sampled = std::max(sampled, distanceToCubes(offset, voxels, norm));
+    }
+    const double reach = reachOf({given.ball}, given.object, norm);
+    EXPECT_GE(reach, sampled);
+    EXPECT_LE(reach, sampled + 0.25 * norm.length(1, 1, 1) / norm.unit() + 1);
 }
 
 TEST_F(StoredReach, BoundsTheBallsOfNorms)

@@ -31,7 +31,7 @@ void expectEnoughForRegions(const Voxels& voxels)
             taken += double(region.bytes());
         }
         WorkingMemory known, guessed;
-        known.addRegions(balls, level);
+        known.addRegions(balls, level, nullptr);
         guessed.guessRegions(balls, level.leafCount());
         EXPECT_GE(known.bytes, 2 * taken); // of two levels
         EXPECT_LE(known.bytes, 2.5 * regionBytes(50 * double(level.leafCount()), 0));
@@ -69,7 +69,7 @@ TEST(WorkingMemory, OfRegionsIsEnoughWhereABallHoldsPartsOfAllLeafNodes)
     for (const VoxelRegion& region : regionsOf(balls, level, nullptr))
         taken += double(region.bytes());
     WorkingMemory known, guessed;
-    known.addRegions(balls, level);
+    known.addRegions(balls, level, nullptr);
     guessed.guessRegions(balls, level.leafCount());
     EXPECT_GE(known.bytes, 2 * taken);
     EXPECT_GE(guessed.bytes, 2 * taken);
