@@ -70,6 +70,11 @@ void noteWhatIsLost(
         notes.push_back(
             format.name + " has no room for the ids that spheres keep from frame to frame");
     }
+    if (tree.settings.dim == 2) {
+        notes.push_back("readers of " + format.name
+            + " take the discs of a tree with dim=2 for whole spheres, which reach out of its "
+              "plane by their radii");
+    }
     if (format.errors)
         notes.push_back(
             format.name + " has errors of another kind than those of trees: they are 0");

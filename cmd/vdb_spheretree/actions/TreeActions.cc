@@ -65,7 +65,8 @@ void warnOfSize(const BoolGrid& object, int dim, Session& session)
     }
     const int flat = spheretree::flatAxisOf(box);
     if (flat >= 0 && dim != 2) {
-        session.warn(name + "one voxel thick along " + "xyz"[flat] + ": dim=2 ?");
+        session.warn(name + "one voxel thick along " + "xyz"[flat]
+            + ": a picture or a slice wants -spheretree dim=2, and a solid a smaller voxel");
     }
 }
 

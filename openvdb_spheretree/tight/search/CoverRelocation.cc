@@ -12,7 +12,7 @@ namespace openvdb_spheretree::tight {
 
 CoverChange CoverRelocation::removal(int32_t id) const
 {
-    constexpr std::size_t kSuccessors = 3;
+    constexpr std::size_t kSuccessors = 2;
     const CoverBall& ball = mCover[id];
     if (ball.empty()) return {};
     const std::vector<int32_t> around = mCover.grid().nearest(id, ball.ball, kChangedNeighbours);
@@ -77,7 +77,7 @@ void CoverRelocation::relocate()
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
         [&](std::size_t a, std::size_t b) { return removals[a].change < removals[b].change; });
-    const std::vector<CoverChange> put = bestInsertions(2 * mCover.size());
+    const std::vector<CoverChange> put = bestInsertions(mCover.size());
     std::vector<FineBox> taken;
     std::size_t next = 0;
     for (const std::size_t i : order) {

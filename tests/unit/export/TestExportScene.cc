@@ -348,6 +348,15 @@ TEST(ExportScene, BallsOfNormsAreNoSpheres)
         messageOf<openvdb::ValueError>([&] { sceneOf(tree, format(true)); }), "those of a norm"));
 }
 
+TEST(ExportScene, ThatDiscsBecomeSpheresIsSaid)
+{
+    SphereTree tree = turnedTree();
+    const char* const said = "take the discs of a tree with dim=2 for whole spheres";
+    EXPECT_FALSE(mentions(notesOf(tree, ".yml", "", {}), said));
+    tree.settings.dim = 2;
+    EXPECT_TRUE(mentions(notesOf(tree, ".yml", "", {}), said));
+}
+
 TEST(ExportScene, TracksAreIdsWhereTheOrderOfIdsIsFree)
 {
     SphereTree tree = turnedTree();
