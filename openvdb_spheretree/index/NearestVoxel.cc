@@ -7,6 +7,7 @@
 
 #include <openvdb_spheretree/base/Parallel.h>
 #include <openvdb_spheretree/voxel/Masks.h>
+#include <openvdb_spheretree/voxel/NearestBit.h>
 
 #include <tbb/parallel_sort.h>
 
@@ -37,20 +38,6 @@ bool mortonLess(const Coord& a, const Coord& b)
 
 /// Three squares of 2^30 fit 63 bits.
 int64_t clamped(int64_t distance) { return std::min(distance, NearestVoxel::kFar2); }
-
-int lowestBit(uint32_t byte) { return int(openvdb::util::FindLowestOn(openvdb::Byte(byte))); }
-int highestBit(uint32_t byte) { return int(openvdb::util::FindHighestOn(byte)); }
-
-/// @return the bit z of a row, which is not empty, with the smallest |2 z - point2|.
-int nearestBit(uint32_t row, int64_t point2)
-{
-    const int split = point2 < 0 ? 0 : int(std::min<int64_t>(point2 / 2 + 1, 8));
-    const uint32_t below = row & ((1u << split) - 1), above = row & ~((1u << split) - 1);
-    if (!below) return lowestBit(above);
-    if (!above) return highestBit(below);
-    const int lower = highestBit(below), upper = lowestBit(above);
-    return point2 - 2 * lower <= 2 * upper - point2 ? lower : upper;
-}
 
 /// Bits of a row that are next to each other: [first, last].
 struct BitRun {
@@ -200,6 +187,20 @@ bool NearestVoxel::anyWithin(const int64_t point2[3], int64_t limit) const
     Query query{point2, limit, limit + 1}; // what is farther need not be looked at
     if (nearSq(mLevels.back()[0], point2) <= limit) searchNode(mLevels.size() - 1, 0, query);
     return query.best <= limit;
+}
+
+bool NearestVoxel::areAllWithin(const openvdb::CoordBBox& box, double distance2) const
+{
+    int64_t center2[3], side[3];
+    for (int a = 0; a < 3; ++a) {
+        side[a] = int64_t(box.max()[a]) - box.min()[a];
+        center2[a] = int64_t(box.min()[a]) + box.max()[a];
+    }
+    const double diagonal = std::sqrt(double(mDistance.lengthSq(side[0], side[1], side[2])));
+    constexpr double kLess = 1 - 1e-12; // by more than all that the roots may be off
+    const double reach = distance2 * kLess - diagonal / kLess;
+    if (reach < 0) return false;
+    return anyWithin(center2, int64_t(reach * reach * kLess));
 }
 
 void NearestVoxel::searchNode(std::size_t level, std::size_t node, Query& query) const

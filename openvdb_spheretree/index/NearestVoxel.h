@@ -67,6 +67,11 @@ public:
     /// @return whether a voxel is within the squared distance @a limit.
     bool anyWithin(const int64_t point2[3], int64_t limit) const;
 
+    /// @param distance2  of the metric, in doubled coordinates
+    /// @return whether every voxel of a box is within a distance of the mask, for all that one query for its middle
+    ///         tells: false may be wrong.
+    bool areAllWithin(const openvdb::CoordBBox& box, double distance2) const;
+
 private:
     struct Box {
         int32_t lo[3], hi[3];

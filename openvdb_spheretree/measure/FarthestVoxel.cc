@@ -94,17 +94,7 @@ private:
     /// @return whether no voxel of the box can be farther than B.
     bool dismissed(const CoordBBox& box) const
     {
-        int64_t center2[3], side[3];
-        for (int a = 0; a < 3; ++a) {
-            side[a] = int64_t(box.max()[a]) - box.min()[a];
-            center2[a] = int64_t(box.min()[a]) + box.max()[a];
-        }
-        const int64_t diagonalSq = mObject.distance().lengthSq(side[0], side[1], side[2]);
-        constexpr double kLess = 1 - 1e-12; // by more than all that the roots may be off
-        const double reach =
-            std::sqrt(double(bestSq2())) * kLess - std::sqrt(double(diagonalSq)) / kLess;
-        if (reach < 0) return false;
-        return mObject.anyWithin(center2, int64_t(reach * reach * kLess));
+        return mObject.areAllWithin(box, std::sqrt(double(bestSq2())));
     }
 
     /// Visits voxels of a leaf until none is left, each with all that are within B of the object

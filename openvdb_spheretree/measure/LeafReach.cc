@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LeafReach.h"
 
+#include <openvdb_spheretree/voxel/NearestBit.h>
+
 #include <openvdb/tree/ValueAccessor.h>
-#include <openvdb/util/NodeMasks.h>
 
 #include <algorithm>
-#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -21,15 +21,6 @@ constexpr uint64_t kEveryByte = 0x0101010101010101u;
 /// Bytes of which the upper n bits are on, or the lower ones.
 constexpr uint64_t upper(int n) { return kEveryByte * (0xffu & (0xff00u >> n)); }
 constexpr uint64_t lower(int n) { return kEveryByte * (0xffu & ~(0xffu << n)); }
-
-/// @return the bit that is on, of some, which is nearest to bit @a at; of two, the lower one.
-int nearestBit(uint32_t bits, int at)
-{
-    const uint32_t below = bits & ((uint32_t(2) << at) - 1), above = bits & ~below;
-    const int lower = below ? int(openvdb::util::FindHighestOn(below)) : INT_MIN / 2;
-    const int upper = above ? int(openvdb::util::FindLowestOn(above)) : INT_MAX / 2;
-    return at - lower <= upper - at ? lower : upper;
-}
 
 /// @return the origin of the leaf so many leaves away; none beyond the ends of coordinates.
 std::optional<Coord> leafBeside(const Coord& origin, int dx, int dy, int dz)
@@ -148,7 +139,7 @@ int64_t LeafReach::nearest(const Coord& voxel, Coord& nearest) const
                 if (mDistance.lengthSq(dx, dy, 0) >= best) continue;
                 const uint32_t bits = column(kSide * (kReach + at[0] + dx) + kReach + at[1] + dy);
                 if (bits == 0) continue;
-                const int z = nearestBit(bits, kReach + at[2]) - kReach;
+                const int z = nearestBit(bits, 2 * (kReach + at[2])) - kReach;
                 const int64_t distSq = mDistance.lengthSq(dx, dy, z - at[2]);
                 if (distSq >= best) continue;
                 best = distSq;

@@ -218,14 +218,7 @@ Cell ReachSearch::cellOf(const Coord& origin, int32_t size) const
 /// @return whether no voxel of a cube is farther than B, for all that one query tells.
 bool ReachSearch::isNear(const Coord& origin, int32_t size) const
 {
-    const int64_t side = size - 1;
-    constexpr double kLess = 1 - 1e-12;
-    const double diagonal = std::sqrt(double(mSolid.distance().lengthSq(side, side, side)));
-    const double reach = 2 * mUnit * best() * kLess - diagonal / kLess; // doubled coordinates
-    if (reach < 0) return false;
-    int64_t center2[3];
-    for (int a = 0; a < 3; ++a) center2[a] = 2 * int64_t(origin[a]) + side;
-    return mSolid.anyWithin(center2, int64_t(reach * reach * kLess));
+    return mSolid.areAllWithin(openvdb::CoordBBox::createCube(origin, size), 2 * mUnit * best());
 }
 
 /// Where B is many voxels, one query for a block spares those for its leaves.

@@ -18,6 +18,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 8;
 
+constexpr double kRounding = 1e-12; // more than that of the sums here, relative
+
+/// @return the squared distance of each ball's center to the box.
+/// @param x, y, z  centers, from the middle of the box
+template <class D, class V = hn::VFromD<D>>
+HWY_INLINE V nearestSqOf(D d, const BoxMiddle& box, V x, V y, V z)
+{
+    const V gapX = hn::Max(hn::Sub(hn::Abs(x), hn::Set(d, box.half[0])), hn::Zero(d));
+    const V gapY = hn::Max(hn::Sub(hn::Abs(y), hn::Set(d, box.half[1])), hn::Zero(d));
+    const V gapZ = hn::Max(hn::Sub(hn::Abs(z), hn::Set(d, box.half[2])), hn::Zero(d));
+    return hn::Add(hn::Mul(gapX, gapX), hn::Add(hn::Mul(gapY, gapY), hn::Mul(gapZ, gapZ)));
+}
+
+/// @return how much more power the strongest ball has than each of some others, where that is least in the box.
+template <class D, class V = hn::VFromD<D>>
+HWY_INLINE V leastAhead(D d, const BallArrays& balls, const BoxMiddle& box,
+    const StrongestBall& strongest, V x, V y, V z, V power)
+{
+    const auto along = [&](V v, const double* axis, int a) {
+        const double center = axis[strongest.ball] - box.middle[a];
+        return hn::Mul(hn::Abs(hn::Sub(v, hn::Set(d, center))), hn::Set(d, box.half[a]));
+    };
+    const V across =
+        hn::Add(along(x, balls.x, 0), hn::Add(along(y, balls.y, 1), along(z, balls.z, 2)));
+    const V inMiddle = hn::Sub(hn::Set(d, strongest.power), power);
+    return hn::Sub(inMiddle, hn::Add(across, across));
+}
+
+/// @return whether a ball surely holds all of the box.
+bool holdsAll(const BallArrays& balls, int32_t ball, const BoxMiddle& box)
+{
+    const double center[3] = {balls.x[ball], balls.y[ball], balls.z[ball]};
+    double farthestSq = 0;
+    for (int a = 0; a < 3; ++a) {
+        const double far = std::abs(center[a] - box.middle[a]) + box.half[a];
+        farthestSq += far * far;
+    }
+    return farthestSq * (1 + kRounding) <= balls.radiusSq[ball];
+}
+
 /// Lists the balls of @a from that matter, in order.
 /// @param strongest  as of BallsInBox::list()
 /// @param listed     receives them; has room for all
@@ -25,13 +65,10 @@ constexpr std::size_t kMostLanes = 8;
 std::size_t listBalls(const BallArrays& balls, const BoxMiddle& box,
     const std::vector<int32_t>& from, bool untilHeld, StrongestBall& strongest, int32_t* listed)
 {
-    constexpr double kRounding = 1e-12; // more than that of the sums here, relative
     const hn::CappedTag<double, kMostLanes> d;
     const hn::RebindToSigned<decltype(d)> d64;
     const hn::Rebind<int32_t, decltype(d)> d32;
     const std::size_t lanes = hn::Lanes(d);
-    const auto halfX = hn::Set(d, box.half[0]), halfY = hn::Set(d, box.half[1]),
-               halfZ = hn::Set(d, box.half[2]);
     std::size_t count = 0;
     for (std::size_t i = 0; i < from.size(); i += lanes) {
         const int32_t* ids = from.data() + i;
@@ -46,28 +83,15 @@ std::size_t listBalls(const BallArrays& balls, const BoxMiddle& box,
         const auto y = hn::Sub(hn::GatherIndex(d, balls.y, index), hn::Set(d, box.middle[1]));
         const auto z = hn::Sub(hn::GatherIndex(d, balls.z, index), hn::Set(d, box.middle[2]));
         const auto radiusSq = hn::GatherIndex(d, balls.radiusSq, index);
-        const auto squareOf = [](auto v) { return hn::Mul(v, v); };
-        const auto apartSq = hn::Add(squareOf(x), hn::Add(squareOf(y), squareOf(z)));
+        const auto apartSq = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
         const auto power = hn::Sub(radiusSq, apartSq);
 
-        const auto beyond = [&](auto v, auto half) {
-            return squareOf(hn::Max(hn::Sub(hn::Abs(v), half), hn::Zero(d)));
-        };
-        const auto nearestSq =
-            hn::Add(beyond(x, halfX), hn::Add(beyond(y, halfY), beyond(z, halfZ)));
-        auto matters = hn::Le(nearestSq, hn::Mul(radiusSq, hn::Set(d, 1 + kRounding)));
+        const auto reachSq = hn::Mul(radiusSq, hn::Set(d, 1 + kRounding));
+        auto matters = hn::Le(nearestSqOf(d, box, x, y, z), reachSq);
         if (strongest.ball >= 0) {
-            const int32_t best = strongest.ball;
-            const auto along = [&](auto v, const double* axis, double middle, auto half) {
-                return hn::Mul(hn::Abs(hn::Sub(v, hn::Set(d, axis[best] - middle))), half);
-            };
-            const auto across = hn::Add(along(x, balls.x, box.middle[0], halfX),
-                hn::Add(along(y, balls.y, box.middle[1], halfY),
-                    along(z, balls.z, box.middle[2], halfZ)));
-            const auto most = hn::Set(d, strongest.power);
-            const auto least = hn::Sub(hn::Sub(most, power), hn::Add(across, across));
+            const auto ahead = leastAhead(d, balls, box, strongest, x, y, z, power);
             const auto terms = hn::Add(hn::Set(d, strongest.size), hn::Add(radiusSq, apartSq));
-            const auto isWeaker = hn::Gt(least, hn::Mul(terms, hn::Set(d, kRounding)));
+            const auto isWeaker = hn::Gt(ahead, hn::Mul(terms, hn::Set(d, kRounding)));
             matters = hn::AndNot(isWeaker, matters);
         }
         uint8_t bits[8] = {}; // as many as StoreMaskBits may write
@@ -81,14 +105,7 @@ std::size_t listBalls(const BallArrays& balls, const BoxMiddle& box,
         hn::Store(power, d, powers);
         const std::size_t k = std::size_t(std::max_element(powers, powers + lanes) - powers);
         strongest = {ids[k], powers[k], std::abs(2 * balls.radiusSq[ids[k]] - powers[k])};
-        if (!untilHeld) continue;
-        double farthestSq = 0;
-        const double* const axes[3] = {balls.x, balls.y, balls.z};
-        for (int a = 0; a < 3; ++a) {
-            const double far = std::abs(axes[a][ids[k]] - box.middle[a]) + box.half[a];
-            farthestSq += far * far;
-        }
-        if (farthestSq * (1 + kRounding) <= balls.radiusSq[ids[k]]) break;
+        if (untilHeld && holdsAll(balls, ids[k], box)) break;
     }
     return count;
 }

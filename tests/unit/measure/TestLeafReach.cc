@@ -32,6 +32,24 @@ LeafMask farByOne(const std::vector<Coord>& object, const Distance& distance, in
     return result;
 }
 
+/// Up to @a most voxels in the leaf and in those around.
+std::vector<Coord> voxelsAround(const Coord& origin, int most, std::mt19937& random)
+{
+    std::vector<Coord> voxels;
+    for (int i = 1 + int(random() % uint32_t(most)); i > 0; --i) {
+        const int side = 24, x = int(random() % side), y = int(random() % side);
+        voxels.push_back(origin.offsetBy(x - 8, y - 8, int(random() % side) - 8));
+    }
+    return voxels;
+}
+
+MaskTree maskOf(const std::vector<Coord>& voxels)
+{
+    MaskTree mask;
+    for (const Coord& voxel : voxels) mask.setValueOn(voxel);
+    return mask;
+}
+
 } // namespace
 
 TEST(LeafReach, TakesWhatIsNearAndNothingElse)
@@ -40,14 +58,8 @@ TEST(LeafReach, TakesWhatIsNearAndNothingElse)
     LeafReach reach;
     const Coord origin(-8, 120, 4096);
     for (int round = 0; round < 400; ++round) {
-        MaskTree mask;
-        std::vector<Coord> object;
-        const int count = 1 + int(random() % 4);
-        for (int i = 0; i < count; ++i) {
-            const int side = 24, x = int(random() % side), y = int(random() % side);
-            object.push_back(origin.offsetBy(x - 8, y - 8, int(random() % side) - 8));
-            mask.setValueOn(object.back());
-        }
+        const std::vector<Coord> object = voxelsAround(origin, 4, random);
+        const MaskTree mask = maskOf(object);
         const Distance distance = kDistances[random() % kDistances.size()];
         const int64_t most = distance.lengthSq(LeafReach::kReach + 1, 0, 0) - 1;
         const int64_t limitSq = int64_t(random() % uint64_t(most + 1));
@@ -67,14 +79,8 @@ TEST(LeafReach, FindsTheNearestVoxelWhateverTheLimit)
     const Coord origin(-8, 120, 4096);
     int found = 0, beyond = 0;
     for (int round = 0; round < 60; ++round) {
-        MaskTree mask;
-        std::vector<Coord> object;
-        const int count = 1 + int(random() % 40);
-        for (int i = 0; i < count; ++i) {
-            const int side = 24, x = int(random() % side), y = int(random() % side);
-            object.push_back(origin.offsetBy(x - 8, y - 8, int(random() % side) - 8));
-            mask.setValueOn(object.back());
-        }
+        const std::vector<Coord> object = voxelsAround(origin, 40, random);
+        const MaskTree mask = maskOf(object);
         const Distance distance = kDistances[random() % kDistances.size()];
         LeafMask leaf = LeafMask::full();
         reach.takeNear(mask, distance, kLimits[random() % kLimits.size()], origin, leaf);
