@@ -2,8 +2,6 @@
 #include "Memory.h"
 #include "TextStream.h"
 
-#include <openvdb/Exceptions.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -48,31 +46,34 @@ int64_t allowedMemory(int64_t memory)
 
 std::string asText(double bytes, bool up)
 {
-    constexpr double kMiB = 1 << 20, kGiB = 1 << 30;
-    const double unit = bytes < kGiB ? kMiB : kGiB;
+    constexpr double kKiB = 1 << 10, kMiB = 1 << 20, kGiB = 1 << 30;
+    const double unit = bytes < kMiB ? kKiB : bytes < kGiB ? kMiB : kGiB;
     const double tenths = bytes / unit * 10;
     detail::TextStream text;
-    text << (up ? std::ceil(tenths) : std::floor(tenths)) / 10 << (unit == kMiB ? " MiB" : " GiB");
+    text << (up ? std::ceil(tenths) : std::floor(tenths)) / 10
+         << (unit == kKiB          ? " KiB"
+                    : unit == kMiB ? " MiB"
+                                   : " GiB");
     return text.str();
 }
 
 void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
 {
     if (needed <= allowed) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        "the object's " << leaves << " leaf nodes, those inside its tiles included, need at least "
-                        << asText(double(needed)) << " for their power labels, and memory= allows "
-                        << asText(double(allowed), false)
-                        << ": allow more, use a larger voxel, or split the object");
+    const std::string what = "the object's " + std::to_string(leaves)
+        + " leaf nodes, those inside its tiles included, need at least " + asText(double(needed))
+        + " for their power labels, and memory= allows " + asText(double(allowed), false)
+        + ": allow more, use a larger voxel, or split the object";
+    throw MemoryError(what, double(needed));
 }
 
 void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {
     const double there = physicalMemory();
     if (there == 0 || bytes <= there) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        what << " need about " << asText(bytes) << ", more than the " << asText(there, false)
-             << " of this machine: " << remedy);
+    throw MemoryError(what + " need about " + asText(bytes) + ", more than the "
+            + asText(there, false) + " of this machine: " + remedy,
+        bytes);
 }
 
 void requireAllowed(
@@ -80,9 +81,9 @@ void requireAllowed(
 {
     if (memory <= 0) return requireMemory(bytes, what, remedy);
     if (bytes <= double(memory)) return;
-    OPENVDB_THROW(openvdb::ValueError,
-        what << " need about " << asText(bytes) << ", and memory= allows "
-             << asText(double(memory), false) << ": allow more, " << remedy);
+    throw MemoryError(what + " need about " + asText(bytes) + ", and memory= allows "
+            + asText(double(memory), false) + ": allow more, " + remedy,
+        bytes);
 }
 
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf)

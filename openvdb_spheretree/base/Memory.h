@@ -4,10 +4,23 @@
 
 #pragma once
 
+#include <openvdb/Exceptions.h>
+
 #include <cstdint>
 #include <string>
 
 namespace openvdb_spheretree::detail {
+
+/// More memory is needed than there may be.
+class MemoryError : public openvdb::ValueError {
+public:
+    /// @param bytes  that are needed, about
+    MemoryError(const std::string& what, double bytes) : ValueError(what), mNeeded(bytes) {}
+    double needed() const { return mNeeded; }
+
+private:
+    double mNeeded;
+};
 
 /// @return the bytes of this machine, or of the container; 0 if they are not known.
 double physicalMemory();
@@ -19,14 +32,13 @@ constexpr double kMemoryShare = 0.75;
 /// @return the bytes; INT64_MAX if the machine's are not known.
 int64_t allowedMemory(int64_t memory);
 
-/// @return bytes for messages: as GiB with one decimal, or MiB, rounded up (or down).
+/// @return bytes for messages: as GiB, MiB or KiB with one decimal, rounded up (or down).
 std::string asText(double bytes, bool up = true);
 
-/// @throw openvdb::ValueError if @a leaves leaf nodes need more for their labels than is allowed
+/// @throw MemoryError if @a leaves leaf nodes need more for their labels than is allowed
 void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed);
 
-/// @throw openvdb::ValueError if @a leaves leaf nodes at @a bytesPerLeaf are more than this
-///        machine's physical memory (where that can be told)
+/// @throw MemoryError if @a leaves leaf nodes at @a bytesPerLeaf are more than this machine's physical memory (where that can be told)
 void requireMemory(int64_t leaves, int64_t bytesPerLeaf);
 
 /// @brief The same for anything else.

@@ -26,40 +26,72 @@ std::string roughly(double number)
     return text.str();
 }
 
+/// How labels of that level keep to the memory.
+/// @param kept  receives nothing; null if labels are not kept
+void addLabels(const LeafLayout& layout, const SphereTreeSettings& settings,
+    detail::LabelOffsets* kept, openvdb::util::NullInterrupter* interrupter, MemoryPlan& plan)
+{
+    slab::LabelStream stream(layout, settings.dim);
+    if (kept) stream.keepOffsets(*kept);
+    stream.setMemory(settings.memory);
+    const slab::StreamPlan found = stream.plan(interrupter);
+    plan.slabs = layout.slabCount();
+    plan.needed = found.bytes;
+    plan.slabsAtATime = std::min<int64_t>(found.slabs, plan.slabs);
+    plan.packed = found.packed;
+    plan.packedBytes = found.packedBytes;
+    plan.storedBytes = found.storedBytes;
+}
+
+/// @return whether levels are made from leaf balls that nobody knows yet.
+bool levelsAreGuessed(const SphereTreeSettings& settings)
+{
+    const auto* options = settings.find<TightOptions>();
+    return options && options->leaves != Leaves::Given;
+}
+
+MemoryPlan tightPlan(const tight::TightEstimate& levels, const SphereTreeSettings& settings,
+    openvdb::util::NullInterrupter* interrupter)
+{
+    MemoryPlan plan;
+    plan.allowed = detail::allowedMemory(settings.memory);
+    plan.leafBalls = int64_t(levels.leafBalls);
+    plan.levelsBytes = levels.bytes;
+    plan.levelsSeconds = levels.seconds;
+    const bool fits = levels.leastBytes <= double(plan.allowed);
+    if (!fits) tight::refuseTightTree(levels, settings.dim, settings.memory);
+    try {
+        addLabels(LeafLayout(*levels.labelled), settings, nullptr, interrupter, plan);
+    } catch (const detail::MemoryError&) {
+        tight::refuseTightTree(levels, settings.dim, settings.memory);
+    }
+    return plan;
+}
+
 } // namespace
 
 MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings& settings,
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flatAxisOf(object, settings.dim));
+    if (levelsAreGuessed(settings)) {
+        return tightPlan(
+            tight::estimateTightTree(voxels, settings, interrupter), settings, interrupter);
+    }
     const LeafLayout layout(*voxels);
     MemoryPlan plan;
     plan.allowed = detail::allowedMemory(settings.memory);
-    plan.slabs = layout.slabCount();
     if (!settings.dist().isEuclidean()) { // norms have everything in memory, always
+        plan.slabs = layout.slabCount();
         plan.needed = normBytes(layout);
         plan.slabsAtATime = plan.slabs;
         detail::requireAllowed(layout.leafCount(), plan.needed, plan.allowed);
         return plan;
     }
-    slab::LabelStream stream(layout, settings.dim);
     detail::LabelOffsets offsets;
     const auto* options = settings.find<PyramidOptions>();
-    if (options && detail::needsDag(*options)) stream.keepOffsets(offsets);
-    stream.setMemory(settings.memory);
-    const slab::StreamPlan found = stream.plan(interrupter);
-    plan.needed = found.bytes;
-    plan.slabsAtATime = std::min<int64_t>(found.slabs, plan.slabs);
-    plan.packed = found.packed;
-    plan.packedBytes = found.packedBytes;
-    plan.storedBytes = found.storedBytes;
-    const auto* tightOptions = settings.find<TightOptions>();
-    if (tightOptions && tightOptions->leaves != Leaves::Given) {
-        const auto levels = tight::estimateTightTree(voxels, settings, interrupter);
-        plan.leafBalls = int64_t(levels.leafBalls);
-        plan.levelsBytes = levels.bytes;
-        plan.levelsSeconds = levels.seconds;
-    }
+    const bool keepsOffsets = options && detail::needsDag(*options);
+    addLabels(layout, settings, keepsOffsets ? &offsets : nullptr, interrupter, plan);
     return plan;
 }
 

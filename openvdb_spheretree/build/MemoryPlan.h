@@ -14,11 +14,12 @@
 
 namespace openvdb_spheretree {
 
-/// For the power labels of level 0 (the other levels have fewer), and for the levels of a tight tree.
+/// For the power labels of the level that has the most, and for the levels of a tight tree. That level is 0; for
+/// a tight tree of named counts it is the level of the pyramid that the tree is likely to be made on.
 struct MemoryPlan {
     int64_t allowed = 0;      ///< bytes, by SphereTreeSettings::memory
     int64_t needed = 0;       ///< bytes, at most
-    int64_t slabs = 0;        ///< of the object: each is one leaf node thick, along x
+    int64_t slabs = 0;        ///< of that level: each is one leaf node thick, along x
     int64_t slabsAtATime = 0; ///< whose distances and labels are computed together
     bool packed = false;      ///< whether labels are compressed; else all are kept in memory
     int64_t packedBytes = 0;  ///< of all labels before they are compressed, if they are

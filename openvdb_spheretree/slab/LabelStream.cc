@@ -39,13 +39,22 @@ StreamMemory LabelStream::memory() const
     return memory;
 }
 
+StreamMemory LabelStream::memoryFor(uint32_t largestDistSq) const
+{
+    return isNarrow(largestDistSq) ? memory<NarrowPower, uint16_t>()
+                                   : memory<WidePower, uint32_t>();
+}
+
 StreamPlan LabelStream::planFor(uint32_t largestDistSq) const
 {
     if (mPlan) return *mPlan;
-    const StreamMemory needs =
-        isNarrow(largestDistSq) ? memory<NarrowPower, uint16_t>() : memory<WidePower, uint32_t>();
-    return planWithin(mLayout, needs, largestDistSq, detail::allowedMemory(mMemory),
-        uint32_t(tbb::this_task_arena::max_concurrency()));
+    return planWithin(mLayout, memoryFor(largestDistSq), largestDistSq,
+        detail::allowedMemory(mMemory), uint32_t(tbb::this_task_arena::max_concurrency()));
+}
+
+int64_t LabelStream::enoughBytes() const
+{
+    return leastBytes(mLayout, memory<WidePower, uint32_t>());
 }
 
 uint32_t LabelStream::largest(NullInterrupter* interrupter) const

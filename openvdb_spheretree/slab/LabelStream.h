@@ -51,7 +51,11 @@ public:
     /// @throw as run()
     StreamPlan plan(openvdb::util::NullInterrupter* interrupter) const;
 
-    /// @throw openvdb::ValueError if a radius exceeds 32767 voxels, or there is too little memory
+    /// @return the fewest bytes with which run() works whatever the radii are: of packed labels, on one thread.
+    int64_t enoughBytes() const;
+
+    /// @throw openvdb::ValueError if a radius exceeds 32767 voxels
+    /// @throw detail::MemoryError if there is too little memory
     /// @throw openvdb::IoError if a temporary file is needed and cannot be made, or has no room
     /// @throw Interrupted if the interrupter (may be null) said so
     LevelBalls run(openvdb::util::NullInterrupter* interrupter);
@@ -61,6 +65,7 @@ private:
     LevelBalls runWith(const StreamPlan& plan, openvdb::util::NullInterrupter* interrupter);
     template <typename Power, typename T>
     StreamMemory memory() const;
+    StreamMemory memoryFor(uint32_t largestDistSq) const;
     StreamPlan planFor(uint32_t largestDistSq) const;
     uint32_t largest(openvdb::util::NullInterrupter* interrupter) const;
 

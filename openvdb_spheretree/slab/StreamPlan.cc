@@ -29,30 +29,45 @@ uint32_t usefulWindow(const LeafLayout& layout, uint32_t threads)
     return std::min(slabs, std::max(kSlabsOfThread * threads, kLeaves / leavesOfSlab));
 }
 
+/// What packed labels take at least.
+struct PackedNeeds {
+    PackedNeeds(const LeafLayout& layout, const StreamMemory& memory)
+    {
+        const int64_t leaves = largestSlab(layout);
+        slab = leaves * (memory.scratch + memory.labels);
+        // A thread packs a group of leaves, and compresses it.
+        thread = slab + 2 * memory.packed * std::min<int64_t>(leaves, kGroupLeaves);
+        int64_t longestRun = 0;
+        for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
+            longestRun = std::max<int64_t>(longestRun, layout.run(Axis::X, run).count);
+        }
+        band = std::max(memory.gaps, longestRun * memory.keys);
+        all = memory.fixed + thread + band;
+    }
+
+    int64_t slab;   ///< that a thread works on
+    int64_t thread; ///< all in all
+    int64_t band;   ///< of keys, or the gaps along x before
+    int64_t all;    ///< with one thread
+};
+
 /// Beside what each thread works on, compressed labels take what there is. When all slabs have
 /// entered, the gaps along x and the threads' slabs make room for a band of keys.
 StreamPlan packedPlan(
     const LeafLayout& layout, const StreamMemory& memory, int64_t bytes, uint32_t threads)
 {
-    const int64_t leaves = largestSlab(layout), slab = leaves * (memory.scratch + memory.labels);
-    // A thread packs a group of leaves, and compresses it.
-    const int64_t thread = slab + 2 * memory.packed * std::min<int64_t>(leaves, kGroupLeaves);
-    int64_t longestRun = 0;
-    for (uint32_t run = 0; run < layout.runCount(Axis::X); ++run) {
-        longestRun = std::max<int64_t>(longestRun, layout.run(Axis::X, run).count);
-    }
-    const int64_t leastBand = longestRun * memory.keys;
-    const int64_t needed = memory.fixed + thread + std::max(memory.gaps, leastBand);
-    detail::requireAllowed(layout.leafCount(), needed, bytes);
+    const PackedNeeds needs(layout, memory);
+    detail::requireAllowed(layout.leafCount(), needs.all, bytes);
     StreamPlan plan;
     plan.packed = true;
-    const int64_t more = std::min<int64_t>((bytes - needed) / thread, threads - 1);
+    const int64_t more = std::min<int64_t>((bytes - needs.all) / needs.thread, threads - 1);
     plan.slabs = uint32_t(std::min<int64_t>(1 + more, layout.slabCount()));
     plan.threads = plan.slabs;
     plan.packedBytes = int64_t(layout.leafCount()) * memory.packed;
     const int64_t uncounted = bytes / 16; // rows of runs, what allocations take beside their bytes
-    plan.storedBytes = std::max<int64_t>(0, bytes - needed - (plan.slabs - 1) * thread - uncounted);
-    plan.bandBytes = std::max(memory.gaps, leastBand) + (plan.slabs - 1) * slab;
+    const int64_t taken = needs.all + (plan.slabs - 1) * needs.thread + uncounted;
+    plan.storedBytes = std::max<int64_t>(0, bytes - taken);
+    plan.bandBytes = needs.band + (plan.slabs - 1) * needs.slab;
     plan.bytes = bytes;
     return plan;
 }
@@ -86,6 +101,11 @@ StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint
         if (plan.bytes <= bytes) return plan;
     }
     return packedPlan(layout, memory, bytes, threads);
+}
+
+int64_t leastBytes(const LeafLayout& layout, const StreamMemory& memory)
+{
+    return PackedNeeds(layout, memory).all;
 }
 
 LeafGroups::LeafGroups(const LeafLayout& layout, int64_t keyBytes, int64_t bandBytes)

@@ -43,9 +43,12 @@ int64_t windowBytes(
 /// @return a window of as many slabs as keep the threads busy. If it does not fit, half as many
 ///         slabs, a quarter, and so on; if not even one slab fits, packed labels, on as many of @a
 ///         threads as fit.
-/// @throw openvdb::ValueError if nothing fits
+/// @throw detail::MemoryError if nothing fits
 StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq,
     int64_t bytes, uint32_t threads);
+
+/// @return the bytes below which planWithin() throws.
+int64_t leastBytes(const LeafLayout& layout, const StreamMemory& memory);
 
 /// Leaves of a slab, [begin, end), that are packed together.
 struct LeafGroup {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightEstimate.h"
 
+#include <openvdb_spheretree/base/Memory.h>
+#include <openvdb_spheretree/slab/LabelStream.h>
 #include <openvdb_spheretree/tight/level/LevelWork.h>
 #include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/WorkingMemory.h>
+#include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/MaskDifference.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
@@ -27,14 +30,17 @@ std::size_t leafNodesOf(const CoarseObject& coarse, std::size_t level)
 
 GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 {
-    // Of leaf balls, from a level of the pyramid to the next finer one.
-    constexpr double kGrowth = 3.5;
+    // Of leaf balls, from a level of the pyramid to the next finer one. Those of solids lie in sheets, and some are lost.
+    // Where they are most voxels, the object is a sheet itself.
+    constexpr double kGrowth = 3.5, kGrowthOfSheets = 4, kMost = 0.5;
     GuessedObject guess{coarse.steps.size(), double(coarse.leaves.balls.size())};
     int64_t voxels = detail::countVoxels(*coarse.levels[guess.level]);
     while (guess.level > 0 && guess.leafBalls < double(size.leafBalls) && voxels < size.voxels) {
         --guess.level;
+        const bool isSheet = guess.leafBalls > kMost * double(voxels);
         voxels = detail::countVoxels(*coarse.levels[guess.level]);
-        guess.leafBalls = std::min(kGrowth * guess.leafBalls, double(voxels));
+        const double grown = (isSheet ? kGrowthOfSheets : kGrowth) * guess.leafBalls;
+        guess.leafBalls = std::min(grown, double(voxels));
     }
     return guess;
 }
@@ -42,9 +48,14 @@ GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
 /// The regions of all leaf balls, as if each were one of a coarse level, as many times as large. In thin or scattered
 /// objects most of such a ball is empty: there, a leaf node is in as many of them as on the coarse level, times the
 /// ratio of their numbers.
-double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess)
+double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess,
+    openvdb::util::NullInterrupter* interrupter)
 {
     const std::size_t last = coarse.steps.size();
+    if (guess.level == last) { // nothing is guessed
+        WorkingMemory regions;
+        return regions.addRegions(coarse.leaves.balls, coarse.samples.level(0), interrupter).bytes;
+    }
     const std::size_t leafNodes = leafNodesOf(coarse, guess.level),
                       coarseNodes = leafNodesOf(coarse, last);
     const double scale = std::exp2(double(last - guess.level));
@@ -55,14 +66,6 @@ double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess
     regions.guessRegions(balls, leafNodes);
     const double ofNodes = coarseRegions.bytes * double(leafNodes) / double(coarseNodes);
     return std::min(regions.bytes, ofNodes) * guess.leafBalls / double(balls.size());
-}
-
-/// Regions of covers at most: each leaf node is in about three of a level's balls.
-double bytesOfCoverRegions(const std::vector<int64_t>& counts, std::size_t leafNodes)
-{
-    constexpr double kTimes = 3, kWhole = 0.5;
-    const double leaves = kTimes * double(leafNodes);
-    return double(counts.size()) * regionBytes(leaves, kWhole * leaves);
 }
 
 /// The work for one forest of all merges.
@@ -80,8 +83,10 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
 {
     constexpr CoarseSize kEnough{2000, 2000000}; // to guess from
     const TightOptions& options = settings.tight();
+    SphereTreeSettings unbounded = settings;
+    unbounded.memory = 0;
     StageSeconds seconds;
-    const CoarseObject coarse = coarseObject(voxels, settings, kEnough, interrupter, &seconds);
+    const CoarseObject coarse = coarseObject(voxels, unbounded, kEnough, interrupter, &seconds);
     const GuessedObject guess = guessedObject(coarse, sizeFor(options));
     const auto leafBalls = int64_t(guess.leafBalls);
     const std::size_t leafNodes = leafNodesOf(coarse, guess.level);
@@ -93,9 +98,10 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const bool allLeaves = !options.budget.hasBound() && counts.front() == leafBalls;
     TightEstimate estimate;
     estimate.leafBalls = guess.leafBalls;
-    WorkingMemory memory;
-    memory.addSamples(leafNodesOf(coarse, 0)).addMerging(std::size_t(leafBalls));
-    estimate.bytes = memory.bytes;
+    estimate.labelled = coarse.levels[guess.level];
+    WorkingMemory memory = sureMemory(options, leafNodesOf(coarse, 0));
+    estimate.leastBytes = memory.bytes;
+    estimate.bytes = memory.addMerging(std::size_t(leafBalls)).bytes;
     if (options.cuts || options.cover == Cover::Balls) {
         estimate.seconds = secondsOfForest(options, guess.leafBalls);
     } else if (options.budget.hasBound()) {
@@ -107,12 +113,23 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     } else {
         estimate.seconds =
             work.ofCounts(leafBalls, counts, options.quality, coarse.leafNodesBelow(guess.level));
-        estimate.bytes += bytesOfCoverRegions(counts, leafNodesOf(coarse, 0));
     }
     if (makesLeafRegions(options, allLeaves)) {
-        estimate.bytes += bytesOfLeafRegions(coarse, guess);
+        estimate.bytes += bytesOfLeafRegions(coarse, guess, interrupter);
     }
     return estimate;
+}
+
+void refuseTightTree(const TightEstimate& estimate, int dim, int64_t memory)
+{
+    const LeafLayout layout(*estimate.labelled);
+    const auto ofLabels = double(slab::LabelStream(layout, dim).enoughBytes());
+    const double needed = std::max(estimate.bytes, ofLabels);
+    const auto allowed = double(detail::allowedMemory(memory));
+    throw detail::MemoryError("a tight tree of this object needs about " + detail::asText(needed)
+            + ", and memory= allows " + detail::asText(allowed, false)
+            + ": allow more, use a larger voxel, or ask for fewer spheres (spheres=)",
+        needed);
 }
 
 } // namespace openvdb_spheretree::tight

@@ -14,14 +14,21 @@ namespace openvdb_spheretree::tight {
 /// Guessed from the leaf balls of a coarse level of the pyramid, of which each finer level has about 3.5 times as
 /// many: medial axes of solids are sheets. Right within a factor of three.
 struct TightEstimate {
-    double leafBalls = 0; ///< that levels are made from
-    double seconds = 0;   ///< of one processor
-    double bytes = 0;     ///< beside the object, its labels and the tree
+    double leafBalls = 0;                 ///< that levels are made from
+    double seconds = 0;                   ///< of one processor
+    double bytes = 0;                     ///< beside the object, its labels and the tree
+    double leastBytes = 0;                ///< of them, those that are sure
+    openvdb::MaskTree::ConstPtr labelled; ///< the level of the pyramid that they are made on
 };
 
 /// @param voxels  flat objects are flat along z
-/// @note Cost: the pyramid, and the leaf balls of coarse levels of up to some million voxels.
+/// @note Cost: the pyramid, and the leaf balls of coarse levels of up to some million voxels, which take no heed of
+/// SphereTreeSettings::memory.
 TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
+
+/// @param memory  SphereTreeSettings::memory, which is too little
+/// @throw detail::MemoryError with what the tree needs at its peak, about: that of its labels, or of its levels
+[[noreturn]] void refuseTightTree(const TightEstimate& estimate, int dim, int64_t memory);
 
 } // namespace openvdb_spheretree::tight

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TightTree.h"
 
+#include <openvdb_spheretree/base/Memory.h>
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/base/StepProgress.h>
 #include <openvdb_spheretree/measure/LevelMeter.h>
+#include <openvdb_spheretree/tight/TightEstimate.h>
 #include <openvdb_spheretree/tight/level/BottomUpLevels.h>
+#include <openvdb_spheretree/tight/level/BoundedErrors.h>
 #include <openvdb_spheretree/tight/level/CarriedLevels.h>
+#include <openvdb_spheretree/tight/level/CutLevels.h>
 #include <openvdb_spheretree/tight/level/FollowedLevels.h>
 #include <openvdb_spheretree/tight/level/FreeCovers.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
@@ -13,16 +17,9 @@
 #include <openvdb_spheretree/tight/level/MonotoneLevels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
 #include <openvdb_spheretree/tight/level/TopDownLevels.h>
-#include <openvdb_spheretree/tight/merge/MergeForest.h>
-#include <openvdb_spheretree/tight/merge/SlackMerging.h>
-#include <openvdb_spheretree/tight/merge/StrictMerging.h>
 #include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/LeafBalls.h>
-#include <openvdb_spheretree/tight/region/PowerCells.h>
 #include <openvdb_spheretree/tight/region/WorkingMemory.h>
-#include <openvdb_spheretree/sphere/SphereUnion.h>
-#include <openvdb_spheretree/tree/LevelSpheres.h>
-#include <openvdb_spheretree/tree/StoredRadii.h>
 #include <openvdb_spheretree/voxel/FlatAxis.h>
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/Masks.h>
@@ -30,7 +27,6 @@
 #include <openvdb/Exceptions.h>
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,39 +35,31 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-std::unique_ptr<MergeModel> modelFor(
-    const TightOptions& options, const LeafBalls& leaves, const LevelMaker& maker)
+/// @throw detail::MemoryError with what all of the tree needs, if less is allowed than is sure to be needed, or than labels
+/// of a level of the pyramid need
+CoarseObject coarseObjectWithin(const openvdb::MaskTree::ConstPtr& voxels,
+    const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter,
+    StageSeconds* seconds)
 {
-    const std::vector<ExactSphere>& leafBalls = leaves.balls;
-    const bool areInside = !leaves.digital.empty(); // given ones may reach out of the object
-    const SampledObject& object = maker.object;
-    const auto interrupter = maker.interrupter;
-    const SampleLevel& voxels = object.level(0);
-    if (options.cover == Cover::Balls) {
-        return std::make_unique<StrictMerging>(object, ungrouped(leafBalls),
-            heldBalls(leafBalls, areInside), maker.fit, maker.flat, interrupter);
+    const TightOptions& options = settings.tight();
+    const auto leafNodes = std::size_t(detail::leafNodesOf(*voxels));
+    if (sureMemory(options, leafNodes).fits(settings.memory)) {
+        try {
+            return coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);
+        } catch (const detail::MemoryError&) {
+            // The level at hand says what it needs itself.
+        }
     }
-    if (options.quality == Quality::Fast) {
-        auto held = heldVoxels(powerCellPoints(leafBalls, voxels, interrupter), areInside);
-        return std::make_unique<StrictMerging>(
-            object, ungrouped(leafBalls), std::move(held), maker.fit, maker.flat, interrupter);
-    }
-    return std::make_unique<SlackMerging>(object, ungrouped(leafBalls),
-        regionsOf(leafBalls, voxels, interrupter), maker.fit, maker.flat, interrupter, areInside);
+    refuseTightTree(
+        estimateTightTree(voxels, settings, interrupter), settings.dim, settings.memory);
 }
 
-/// @throw openvdb::ValueError if making levels from the leaf balls needs more memory than there may be
+/// @throw detail::MemoryError if making levels from the leaf balls needs more memory than there may be
 void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory,
     openvdb::util::NullInterrupter* interrupter)
 {
     const detail::Stage stage("memory", interrupter, nullptr);
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
-    if (!coarse.steps.empty()) { // to which they are carried
-        const int64_t finest = detail::leafNodesOf(*coarse.levels.front());
-        WorkingMemory samples;
-        samples.addSamples(std::size_t(finest));
-        samples.require(memory, "the samples of " + std::to_string(finest) + " leaf nodes");
-    }
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
     needed.addSamples(leafNodes).addMerging(leafBalls.size());
@@ -80,102 +68,12 @@ void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory,
         "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");
 }
 
-/// @param tree  with settings, object and transform, and without nodes
-/// @return those figures of a tree of this level alone that its settings bound.
-BoundedError errorOf(const std::vector<TightLevel>& level, SphereTree tree,
-    const detail::LevelMeter& meter, openvdb::util::NullInterrupter* interrupter)
-{
-    appendLevels(level, tree);
-    SphereTreeLevel& only = tree.levels.front();
-    const SphereBudget& budget = tree.settings.tight().budget;
-    if (budget.bounds == BoundOf::Unpadded) {
-        meter.measureExact(tree, only, interrupter);
-        if (!only.error) return {0, 0, only.errorUnknown};
-        return {only.error->hammingPercent, only.error->hausdorff * tree.voxelSize(), ""};
-    }
-    detail::storeRadii(tree, interrupter);
-    meter.measureStored(
-        tree, only, {budget.error.has_value(), budget.distance.has_value()}, interrupter);
-    if (!only.stored) return {0, 0, only.storedUnknown};
-    return {only.stored->hammingPercent, only.stored->reachWorld, ""};
-}
-
-/// @return how many voxels a tree of this level alone covers; nothing if they are too many to be counted.
-/// @param tree  as of errorOf()
-std::optional<int64_t> coveredBy(
-    const TightLevel& level, SphereTree tree, openvdb::util::NullInterrupter* interrupter)
-{
-    if (!level.digital.empty()) return tree.object.voxels;
-    appendLevels({{level.balls, {}, {}}}, tree);
-    const std::vector<ExactSphere> spheres = levelSpheres(tree, tree.levels.front());
-    if (crossedRows(spheres, levelBox(tree, spheres), metricOf(tree)) > double(kMaxUnionRows)) {
-        return std::nullopt;
-    }
-    return detail::countVoxels(*levelUnion(tree, tree.levels.front(), interrupter));
-}
-
-/// @return whether a tree of the level alone is within the bounds of the settings.
-bool keepsBounds(const TightLevel& level, const SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    const SphereBudget& budget = tree.settings.tight().budget;
-    if (!budget.hasBound()) return true;
-    const detail::LevelMeter meter(object, tree.settings.dist());
-    const TightLevel alone{level.balls, {}, level.digital};
-    return isWithin(budget, tree.voxelSize(), errorOf({alone}, tree, meter, interrupter));
-}
-
-/// @param leafBalls  how many the object has; 0 if no level has them all
-/// @return the levels, where none has a larger error than a coarser one; but all leaf balls stay, even
-/// given ones that reach far out of the object.
-std::vector<TightLevel> monotone(const std::vector<TightLevel>& levels, std::size_t leafBalls,
-    const SphereTree& tree, const openvdb::BoolGrid& object,
-    openvdb::util::NullInterrupter* interrupter)
-{
-    std::vector<std::optional<int64_t>> covered;
-    for (const TightLevel& level : levels) {
-        const bool areLeaves = level.balls.size() == leafBalls;
-        covered.push_back(areLeaves ? std::nullopt : coveredBy(level, tree, interrupter));
-    }
-    auto changed = monotoneLevels(levels, covered);
-    // A bound on distances may be lost.
-    const bool finestStays = changed.front().balls == levels.front().balls;
-    return finestStays || keepsBounds(changed.front(), tree, object, interrupter) ? changed
-                                                                                  : levels;
-}
-
 /// The object, and the leaf balls that its levels are made from.
 struct TightSource {
     const openvdb::BoolGrid& object;
     const LeafBalls& leaves;
     const LevelMaker& maker;
 };
-
-/// Levels that are cuts of one forest of merges; and the cuts if the settings say so.
-std::vector<TightLevel> cutLevels(SphereTree& tree, const TightSource& source)
-{
-    const TightOptions& options = tree.settings.tight();
-    const openvdb::BoolGrid& object = source.object;
-    const LeafBalls& leaves = source.leaves;
-    const LevelMaker& maker = source.maker;
-    maker.interrupter->expect(1);
-    const auto model = modelFor(options, leaves, maker);
-    const auto forest = [&] {
-        const detail::Step step(maker.interrupter, 1);
-        constexpr int kNeighbours = 6, kMore = 8;
-        const bool isNormal = options.quality == Quality::Normal;
-        return mergeToRoots(*model, isNormal ? kMore : kNeighbours, maker.interrupter);
-    }();
-    std::optional<detail::LevelMeter> meter;
-    if (options.budget.hasBound()) meter.emplace(object, tree.settings.dist());
-    const auto counts = levelCounts(
-        tree.settings, int64_t(leaves.balls.size()), tree.voxelSize(), [&](int64_t count) {
-            const auto level = levelsOf(forest, {count}, leaves.digital);
-            return errorOf(level, tree, *meter, maker.interrupter);
-        });
-    if (options.cuts) tree.cuts = cutsOf(forest, tree.flatAxis);
-    return levelsOf(forest, counts, leaves.digital);
-}
 
 /// @return at most @a count balls that are bound to no others, in the sense of CoverSearch.h if there is to be
 /// a search.
@@ -208,7 +106,7 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
     std::optional<detail::LevelMeter> meter;
     if (hasBound) meter.emplace(object, tree.settings.dist());
     counts = levelCounts(tree.settings, leafCount, tree.voxelSize(), [&](int64_t count) {
-        return errorOf({levelOf(count)}, tree, *meter, source.maker.interrupter);
+        return errorOf(levelOf(count), tree, *meter, source.maker.interrupter);
     });
     const TightLevel level = levelOf(counts.front());
     maker.interrupter->expect(work.ofSearches(counts.front()) + work.fromBottom(counts));
@@ -314,7 +212,7 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Ti
     LeafLayout::requireRoom(*voxels); // levels that are made on a coarse object end here, too
     const CoarseObject coarse = start.given
         ? objectOf(*start.given, flat, voxels, interrupter)
-        : coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);
+        : coarseObjectWithin(voxels, settings, interrupter, seconds);
     const LeafBalls& leaves = coarse.leaves;
     const bool onObject = coarse.steps.empty();
     const auto leafCount = int64_t(leaves.balls.size());
@@ -326,12 +224,14 @@ void appendTightTree(SphereTree& tree, const openvdb::BoolGrid& object, const Ti
         const LevelMaker maker =
             levelMakerFor(settings, coarse.samples, leaves.balls.size(), &progress);
         const TightSource source{object, leaves, maker};
-        if (options.cuts || options.cover == Cover::Balls) return cutLevels(tree, source);
+        if (options.cuts || options.cover == Cover::Balls)
+            return cutLevels(tree, object, leaves, maker);
         return allLeaves || options.budget.hasBound() ? levelsOnFinest(tree, source)
                                                       : levelsOfCounts(tree, coarse, start, maker);
     });
     const std::size_t kept = onObject ? leaves.balls.size() : 0;
-    appendLevels(options.cuts ? levels : monotone(levels, kept, tree, object, interrupter), tree);
+    appendLevels(
+        options.cuts ? levels : monotoneLevels(levels, kept, tree, object, interrupter), tree);
 }
 
 } // namespace openvdb_spheretree::tight

@@ -13,7 +13,7 @@
 /// 3. These covers become levels, from the top (TopDownLevels.h) or from the bottom (BottomUpLevels.h).
 /// 4. Levels are carried down the pyramid to the object (CarriedLevels.h).
 /// 5. In a sequence, those of the frame before are taken where they fit about as well (FollowedLevels.h).
-/// With cuts=1 or cover=balls, levels are cuts of one forest of merges instead (MergeForest.h).
+/// With cuts=1 or cover=balls, levels are cuts of one forest of merges instead (CutLevels.h).
 ///
 /// Deterministic: the same bytes for any number of threads.
 

@@ -10,7 +10,12 @@
 #pragma once
 
 #include "TightLevels.h"
+#include <openvdb_spheretree/tree/SphereTree.h>
+#include <openvdb_spheretree/voxel/MaskTree.h>
 
+#include <openvdb/util/NullInterrupter.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,5 +29,13 @@ namespace openvdb_spheretree::tight {
 ///         dropped, as no chain needs them.
 std::vector<TightLevel> monotoneLevels(
     std::vector<TightLevel> levels, std::vector<std::optional<int64_t>> covered);
+
+/// @brief The same, with what levels cover counted. All leaf balls stay, even given ones that reach far out of the
+/// object; and all levels do if a bound on the finest one's distances would be lost.
+/// @param leafBalls  how many the object has; 0 if no level has them all
+/// @param tree       as of errorOf() (BoundedErrors.h)
+std::vector<TightLevel> monotoneLevels(const std::vector<TightLevel>& levels, std::size_t leafBalls,
+    const SphereTree& tree, const openvdb::BoolGrid& object,
+    openvdb::util::NullInterrupter* interrupter);
 
 } // namespace openvdb_spheretree::tight

@@ -76,6 +76,17 @@ CoarseSize sizeFor(const TightOptions& options)
     return {leastLeafBalls(count, options.quality), enoughVoxels(count)};
 }
 
+WorkingMemory sureMemory(const TightOptions& options, std::size_t leafNodes)
+{
+    WorkingMemory memory;
+    memory.addSamples(leafNodes);
+    if (needsLeafBalls(options)) return memory;
+    const std::vector<int64_t> counts = options.budget.counts(INT64_MAX);
+    const double voxels = double(kLeafVoxels) * double(leafNodes);
+    const double balls = std::min(double(counts.front()), voxels);
+    return counts.size() < 2 ? memory : memory.guessCover(balls, leafNodes);
+}
+
 bool makesLeafRegions(const TightOptions& options, bool allLeaves)
 {
     if (options.cover == Cover::Balls) return false;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "LeafBalls.h"
+#include "WorkingMemory.h"
 #include <openvdb_spheretree/base/StageSeconds.h>
 #include <openvdb_spheretree/pyramid/PyramidModel.h>
 #include <openvdb_spheretree/tight/fit/SampledObject.h>
@@ -41,6 +42,10 @@ struct CoarseSize {
 
 /// @return the size that levels of named counts need; for all others, that of no coarse level.
 CoarseSize sizeFor(const TightOptions& options);
+
+/// @return what a tree needs whatever the leaf balls are: samples of the object, and regions of named counts.
+/// @param leafNodes  of the object
+WorkingMemory sureMemory(const TightOptions& options, std::size_t leafNodes);
 
 /// @param allLeaves  whether the leaf balls are a level of the tree
 /// @return whether the voxels of each leaf ball are needed all at once.

@@ -31,6 +31,10 @@ struct WorkingMemory {
     /// About the same for an object that is not there, of so many leaf nodes.
     WorkingMemory& guessRegions(const std::vector<ExactSphere>& balls, std::size_t leafNodes);
 
+    /// About the same for a cover of so many balls that nobody knows yet, from above: in solids, sheets and hairs a
+    /// ball meets leaf nodes up to 2.3 beyond its share of them.
+    WorkingMemory& guessCover(double balls, std::size_t leafNodes);
+
     /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
     /// @return whether it is no more
     bool fits(int64_t memory) const;

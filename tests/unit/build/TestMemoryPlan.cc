@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <stdexcept>
 
 namespace {
 
@@ -62,6 +63,28 @@ SphereTreeSettings settingsOf(TreeType tree, int64_t memory)
     setType(settings, tree);
     settings.memory = memory;
     return settings;
+}
+
+/// @return why no tree is built; nothing if one is.
+std::string refusalOf(const openvdb::BoolGrid& object, const SphereTreeSettings& settings)
+{
+    try {
+        buildSphereTree(object, settings);
+    } catch (const openvdb::ValueError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// @return the bytes that a refusal says are needed.
+int64_t namedIn(const std::string& why)
+{
+    const std::size_t number = why.find_first_of("0123456789", why.find("about "));
+    if (number == std::string::npos) throw std::runtime_error("no number in '" + why + "'");
+    std::size_t length = 0;
+    const double count = std::stod(why.substr(number), &length);
+    const std::string unit = why.substr(number + length + 1, 3);
+    return int64_t(count * (unit == "KiB" ? 1 << 10 : unit == "MiB" ? 1 << 20 : 1 << 30));
 }
 
 class MemoryPlanTest : public testing::Test {
@@ -179,10 +202,36 @@ TEST_F(MemoryPlanTest, LevelsThatNeedMoreAreRefusedWithTheNumber)
         messageOf<openvdb::ValueError>([&] { buildSphereTree(*noise, settings); });
     EXPECT_TRUE(mentions(why, " leaf balls need about ")) << why;
     EXPECT_TRUE(mentions(why, "memory= allows 1 MiB: allow more")) << why;
-    const std::string about = "need about ";
-    const double named = std::stod(why.substr(why.find(about) + about.size()));
-    settings.memory = int64_t((named + 0.1) * kMiB);
+    settings.memory = namedIn(why);
     EXPECT_EQ(fileOf(buildSphereTree(*noise, settings)), usual);
+}
+
+/// A tree passes through levels of the pyramid that need ever more: the first refusal names what is enough for all.
+TEST_F(MemoryPlanTest, WhatATightTreeIsRefusedWithIsEnough)
+{
+    const std::vector<std::vector<int64_t>> counts{{8, 2}, {}};
+    int refused = 0;
+    const auto ball = ballGrid(90); // how many leaf balls others have, nobody could guess
+    for (const auto& object : {ball, noiseGrid(), plateGrid()}) {
+        for (const std::vector<int64_t>& spheres : counts) {
+            if (object != ball && spheres.empty()) continue;
+            SphereTreeSettings settings = settingsOf(TreeType::Tight, 0);
+            settings.tight().quality = Quality::Fast;
+            settings.budgeted().budget.spheres = spheres;
+            const std::string usual = fileOf(buildSphereTree(*object, settings));
+            for (const int64_t little : {int64_t(1), kMiB / 8, kMiB / 2}) {
+                settings.memory = little;
+                const std::string why = refusalOf(*object, settings);
+                if (why.empty()) continue;
+                ++refused;
+                settings.memory = namedIn(why);
+                EXPECT_GT(settings.memory, little) << why;
+                EXPECT_EQ(fileOf(buildSphereTree(*object, settings)), usual) << why;
+                EXPECT_NO_THROW(memoryPlan(*object, settings)) << why;
+            }
+        }
+    }
+    EXPECT_GE(refused, 8);
 }
 
 TEST_F(MemoryPlanTest, TooLittleIsRefused)
@@ -193,8 +242,12 @@ TEST_F(MemoryPlanTest, TooLittleIsRefused)
             const SphereTreeSettings settings = settingsOf(type, memory);
             const std::string why =
                 messageOf<openvdb::ValueError>([&] { buildSphereTree(*ball, settings); });
-            EXPECT_TRUE(mentions(why, "leaf nodes, those inside its tiles included, need "));
-            EXPECT_TRUE(mentions(why, "memory= allows 0 MiB: allow more"));
+            const bool isTight = type == TreeType::Tight;
+            EXPECT_TRUE(mentions(why,
+                isTight ? "a tight tree of this object needs about "
+                        : "leaf nodes, those inside its tiles included, need "));
+            const std::string allowed = memory == 1 ? "0 KiB" : "19.5 KiB";
+            EXPECT_TRUE(mentions(why, "memory= allows " + allowed + ": allow more"));
             EXPECT_EQ(messageOf<openvdb::ValueError>([&] { memoryPlan(*ball, settings); }), why);
         }
     }

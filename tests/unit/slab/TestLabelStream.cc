@@ -234,7 +234,7 @@ TEST(LabelStream, KeepsToTheMemoryItIsGiven)
     stream.setMemory(100000);
     const std::string why = messageOf<openvdb::ValueError>([&] { stream.run(nullptr); });
     EXPECT_TRUE(mentions(why, "the object's " + std::to_string(layout.leafCount())));
-    EXPECT_TRUE(mentions(why, " MiB for their power labels, and memory= allows 0 MiB"));
+    EXPECT_TRUE(mentions(why, " MiB for their power labels, and memory= allows 97.6 KiB"));
 }
 
 TEST(LabelStream, SaysWhenThereIsNoRoomForItsFile)

@@ -75,6 +75,29 @@ TEST(WorkingMemory, OfRegionsIsEnoughWhereABallHoldsPartsOfAllLeafNodes)
     EXPECT_GE(guessed.bytes, 2 * taken);
 }
 
+/// Balls around the cells of a grid: no cover of a solid by balls of one size overlaps more.
+TEST(WorkingMemory, OfACoverIsEnoughForBallsOfAnySizeInASolid)
+{
+    constexpr int kSide = 64;
+    const SampledObject object(LeafLayout(*maskOf(shapes::box(Coord(kSide, kSide, kSide)))));
+    for (int apart = 4; apart <= kSide; apart *= 2) {
+        std::vector<ExactSphere> balls;
+        const int64_t half = kFine * apart / 2;
+        for (int64_t x = half; x < kFine * kSide; x += 2 * half) {
+            for (int64_t y = half; y < kFine * kSide; y += 2 * half) {
+                for (int64_t z = half; z < kFine * kSide; z += 2 * half) {
+                    balls.push_back({{x, y, z}, 3 * half * half});
+                }
+            }
+        }
+        WorkingMemory known, guessed;
+        known.addRegions(balls, object.level(0), nullptr);
+        guessed.guessCover(double(balls.size()), object.level(0).leafCount());
+        EXPECT_GE(guessed.bytes, known.bytes) << apart;
+        EXPECT_LE(guessed.bytes, 12 * known.bytes) << apart;
+    }
+}
+
 TEST(WorkingMemory, AddsUpAndIsRefusedWithBothNumbers)
 {
     WorkingMemory some;
