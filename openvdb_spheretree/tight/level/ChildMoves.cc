@@ -198,12 +198,11 @@ private:
 void moveChildren(std::vector<ExactSphere>& balls, TightLevel& finer,
     const std::vector<VoxelRegion>& regions, const LevelMaker& maker)
 {
-    constexpr int kMostRounds = 8;
     const detail::Step step(
         maker.interrupter, LevelWork(maker).ofMoves(int64_t(finer.balls.size())));
     Moves moves(eachInItsGroup(balls), finer, regions, maker);
-    for (int round = 0; round < kMostRounds; ++round) {
-        detail::checkInterrupt(maker.interrupter, 100 * round / kMostRounds);
+    for (int round = 0; round < maker.childMoves; ++round) {
+        detail::checkInterrupt(maker.interrupter, 100 * round / maker.childMoves);
         if (!moves.round()) break;
     }
     balls = moves.balls();

@@ -18,6 +18,7 @@ LevelEffort effortOf(Quality quality, std::size_t leafBalls)
         effort.sweeps = kFewSweeps;
         effort.placesStart = false;
         effort.dilatedPerBall = 1.5;
+        effort.dilatedAtLeast = 1024;
         return effort;
     }
     // The balls of larger objects are larger: with the samples that suit 4,000 leaf balls, the time
@@ -34,7 +35,9 @@ LevelEffort effortOf(Quality quality, std::size_t leafBalls)
         effort.searchedUpTo = INT64_MAX;
         effort.searches = 6;
         effort.trialsPerBall = 40;
+        effort.childMoves = 8;
         effort.dilatedPerBall = 4;
+        effort.dilatedAtLeast = 4096;
     }
     return effort;
 }

@@ -28,11 +28,14 @@ struct LevelEffort {
     /// Many leaf balls are dilated and pruned (DilatedCover.h) to about so many times as many as they are merged to then:
     /// LevelMaker::dilatedFor().
     double dilatedPerBall = 1.33;
+    int64_t dilatedAtLeast = 1536; ///< to no fewer: to merge these takes little time
     /// Levels of so many balls and fewer are searched (CoverSearch.h), and their children may move
     /// from one of them to another.
     int64_t searchedUpTo = 0;
     int searches = 1;      ///< of a level, at most
     int trialsPerBall = 8; ///< of a search, at most
+    /// In so many rounds at most, children try other parents (ChildMoves.h). The first gains most.
+    int childMoves = 2;
     /// As of SearchEffort. 6 take half as long again, and gain only in long searches.
     std::size_t relocations = 3;
 };

@@ -92,9 +92,8 @@ std::vector<CoverBall> LevelMaker::placedBetween(
 
 int64_t LevelMaker::dilatedFor(int64_t leafBalls, int64_t count) const
 {
-    constexpr int64_t kLeast = 4096; // to merge fewer takes little time
-    constexpr double kWorth = 1.5;   // times as many: else little is saved
-    const auto few = std::max(kLeast, int64_t(dilatedPerBall * double(count)));
+    constexpr double kWorth = 1.5; // times as many: else little is saved
+    const auto few = std::max(dilatedAtLeast, int64_t(dilatedPerBall * double(count)));
     return double(leafBalls) > kWorth * double(few) ? few : 0;
 }
 
