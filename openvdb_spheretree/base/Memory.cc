@@ -48,9 +48,10 @@ std::string asText(double bytes, bool up)
 {
     constexpr double kKiB = 1 << 10, kMiB = 1 << 20, kGiB = 1 << 30;
     const double unit = bytes < kMiB ? kKiB : bytes < kGiB ? kMiB : kGiB;
+    constexpr double kWhole = 1e-3; // what was given in tenths of a unit is whole bytes
     const double tenths = bytes / unit * 10;
     detail::TextStream text;
-    text << (up ? std::ceil(tenths) : std::floor(tenths)) / 10
+    text << (up ? std::ceil(tenths) : std::floor(tenths + kWhole)) / 10
          << (unit == kKiB          ? " KiB"
                     : unit == kMiB ? " MiB"
                                    : " GiB");

@@ -59,11 +59,11 @@ MemoryPlan tightPlan(const tight::TightEstimate& levels, const SphereTreeSetting
     plan.levelsBytes = levels.bytes;
     plan.levelsSeconds = levels.seconds;
     const bool fits = levels.leastBytes <= double(plan.allowed);
-    if (!fits) tight::refuseTightTree(levels, settings.dim, settings.memory);
+    if (!fits) tight::refuseTightTree(levels, settings, levels.leastBytes);
     try {
         addLabels(LeafLayout(*levels.labelled), settings, nullptr, interrupter, plan);
-    } catch (const detail::MemoryError&) {
-        tight::refuseTightTree(levels, settings.dim, settings.memory);
+    } catch (const detail::MemoryError& tooLittle) {
+        tight::refuseTightTree(levels, settings, tooLittle.needed());
     }
     return plan;
 }
@@ -74,6 +74,7 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flatAxisOf(object, settings.dim));
+    LeafLayout::requireRoom(*voxels); // levels of coarse objects, too, end there
     if (levelsAreGuessed(settings)) {
         return tightPlan(
             tight::estimateTightTree(voxels, settings, interrupter), settings, interrupter);

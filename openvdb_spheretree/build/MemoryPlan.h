@@ -36,8 +36,8 @@ struct MemoryPlan {
 /// @brief Ask before a long build, or find out why one is refused.
 /// @param settings     `memory`, and which labels it is about
 /// @param interrupter  may be null
-/// @throw openvdb::ValueError if buildSphereTree() would, for lack of memory for labels or for a radius that
-///        does not fit
+/// @throw openvdb::ValueError if buildSphereTree() would, for lack of memory for labels, or for the regions of named counts
+///        of a tight tree; or for a radius that does not fit
 /// @throw Interrupted if the interrupter said so
 /// @note Cost: O(leaf nodes log leaf nodes); where balls may have radii above 127 voxels, that of a
 ///       distance transform; for tight trees that of a pyramid, and of the leaf balls of coarse levels.

@@ -51,7 +51,7 @@ public:
     /// @throw as run()
     StreamPlan plan(openvdb::util::NullInterrupter* interrupter) const;
 
-    /// @return the fewest bytes with which run() works whatever the radii are: of packed labels, on one thread.
+    /// @return bytes with which run() works whatever the radii are: those of packed labels, on one thread.
     int64_t enoughBytes() const;
 
     /// @throw openvdb::ValueError if a radius exceeds 32767 voxels

@@ -47,7 +47,7 @@ int64_t windowBytes(
 StreamPlan planWithin(const LeafLayout& layout, const StreamMemory& memory, uint32_t largestDistSq,
     int64_t bytes, uint32_t threads);
 
-/// @return the bytes below which planWithin() throws.
+/// @return the fewest bytes with which planWithin() plans packed labels. With as many it never throws.
 int64_t leastBytes(const LeafLayout& layout, const StreamMemory& memory);
 
 /// Leaves of a slab, [begin, end), that are packed together.

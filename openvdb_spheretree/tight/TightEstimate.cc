@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace openvdb_spheretree::tight {
 
@@ -28,18 +29,27 @@ std::size_t leafNodesOf(const CoarseObject& coarse, std::size_t level)
     return std::size_t(detail::leafNodesOf(*coarse.levels[level]));
 }
 
-GuessedObject guessedObject(const CoarseObject& coarse, const CoarseSize& size)
+/// @return how many times as many leaf balls the next finer level of the pyramid has.
+/// @param ofVoxels  how many there are for each voxel
+double growthOf(Leaves leaves, double ofVoxels)
 {
-    // Of leaf balls, from a level of the pyramid to the next finer one. Those of solids lie in sheets, and some are lost.
-    // Where they are most voxels, the object is a sheet itself.
-    constexpr double kGrowth = 3.5, kGrowthOfSheets = 4, kMost = 0.5;
+    // Medial balls of solids lie in sheets, and the finer the voxels, the more of them are not needed. Where they are most
+    // voxels, the object is a sheet itself.
+    constexpr double kPruned = 3.5, kMedial = 4.5, kOfSheets = 4, kMost = 0.5;
+    if (leaves == Leaves::Medial) return kMedial;
+    return ofVoxels > kMost ? kOfSheets : kPruned;
+}
+
+GuessedObject guessedObject(const CoarseObject& coarse, const TightOptions& options)
+{
+    const CoarseSize size = sizeFor(options);
     GuessedObject guess{coarse.steps.size(), double(coarse.leaves.balls.size())};
     int64_t voxels = detail::countVoxels(*coarse.levels[guess.level]);
     while (guess.level > 0 && guess.leafBalls < double(size.leafBalls) && voxels < size.voxels) {
         --guess.level;
-        const bool isSheet = guess.leafBalls > kMost * double(voxels);
+        const double grown =
+            growthOf(options.leaves, guess.leafBalls / double(voxels)) * guess.leafBalls;
         voxels = detail::countVoxels(*coarse.levels[guess.level]);
-        const double grown = (isSheet ? kGrowthOfSheets : kGrowth) * guess.leafBalls;
         guess.leafBalls = std::min(grown, double(voxels));
     }
     return guess;
@@ -87,7 +97,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     unbounded.memory = 0;
     StageSeconds seconds;
     const CoarseObject coarse = coarseObject(voxels, unbounded, kEnough, interrupter, &seconds);
-    const GuessedObject guess = guessedObject(coarse, sizeFor(options));
+    const GuessedObject guess = guessedObject(coarse, options);
     const auto leafBalls = int64_t(guess.leafBalls);
     const std::size_t leafNodes = leafNodesOf(coarse, guess.level);
     const LevelMaker maker =
@@ -99,7 +109,7 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     TightEstimate estimate;
     estimate.leafBalls = guess.leafBalls;
     estimate.labelled = coarse.levels[guess.level];
-    WorkingMemory memory = sureMemory(options, leafNodesOf(coarse, 0));
+    WorkingMemory memory = leastAllowed(settings, leafNodesOf(coarse, 0));
     estimate.leastBytes = memory.bytes;
     estimate.bytes = memory.addMerging(std::size_t(leafBalls)).bytes;
     if (options.cuts || options.cover == Cover::Balls) {
@@ -120,15 +130,20 @@ TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     return estimate;
 }
 
-void refuseTightTree(const TightEstimate& estimate, int dim, int64_t memory)
+void refuseTightTree(
+    const TightEstimate& estimate, const SphereTreeSettings& settings, double atLeast)
 {
     const LeafLayout layout(*estimate.labelled);
-    const auto ofLabels = double(slab::LabelStream(layout, dim).enoughBytes());
-    const double needed = std::max(estimate.bytes, ofLabels);
-    const auto allowed = double(detail::allowedMemory(memory));
-    throw detail::MemoryError("a tight tree of this object needs about " + detail::asText(needed)
-            + ", and memory= allows " + detail::asText(allowed, false)
-            + ": allow more, use a larger voxel, or ask for fewer spheres (spheres=)",
+    const auto ofLabels = double(slab::LabelStream(layout, settings.dim).enoughBytes());
+    const double needed = std::max({estimate.bytes, ofLabels, atLeast});
+    const bool fewerHelp = needed == estimate.bytes && !settings.tight().budget.hasBound();
+    std::string enough = detail::asText(needed);
+    const std::string what = "a tight tree of this object needs about " + enough
+        + ", and memory= allows "
+        + detail::asText(double(detail::allowedMemory(settings.memory)), false);
+    enough.erase(enough.find(' '), 1); // as it is typed
+    throw detail::MemoryError(what + ": try memory=" + enough + ", use a larger voxel, or "
+            + (fewerHelp ? "ask for fewer spheres (spheres=)" : "split the object"),
         needed);
 }
 

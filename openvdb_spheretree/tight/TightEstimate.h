@@ -12,12 +12,12 @@
 namespace openvdb_spheretree::tight {
 
 /// Guessed from the leaf balls of a coarse level of the pyramid, of which each finer level has about 3.5 times as
-/// many: medial axes of solids are sheets. Right within a factor of three.
+/// many: medial axes of solids are sheets. Sheets have 4 times as many. Right within a factor of three.
 struct TightEstimate {
-    double leafBalls = 0;                 ///< that levels are made from
-    double seconds = 0;                   ///< of one processor
-    double bytes = 0;                     ///< beside the object, its labels and the tree
-    double leastBytes = 0;                ///< of them, those that are sure
+    double leafBalls = 0;  ///< that levels are made from
+    double seconds = 0;    ///< of one processor
+    double bytes = 0;      ///< beside the object, its labels and the tree
+    double leastBytes = 0; ///< of them, those that have to be allowed whatever the leaf balls are
     openvdb::MaskTree::ConstPtr labelled; ///< the level of the pyramid that they are made on
 };
 
@@ -27,8 +27,10 @@ struct TightEstimate {
 TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
 
-/// @param memory  SphereTreeSettings::memory, which is too little
+/// @param settings  whose memory is too little
+/// @param atLeast   bytes that are known to be needed
 /// @throw detail::MemoryError with what the tree needs at its peak, about: that of its labels, or of its levels
-[[noreturn]] void refuseTightTree(const TightEstimate& estimate, int dim, int64_t memory);
+[[noreturn]] void refuseTightTree(
+    const TightEstimate& estimate, const SphereTreeSettings& settings, double atLeast);
 
 } // namespace openvdb_spheretree::tight

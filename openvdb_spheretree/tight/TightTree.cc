@@ -24,8 +24,6 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
-#include <openvdb/Exceptions.h>
-
 #include <cmath>
 #include <optional>
 #include <string>
@@ -35,23 +33,22 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @throw detail::MemoryError with what all of the tree needs, if less is allowed than is sure to be needed, or than labels
-/// of a level of the pyramid need
+/// @throw detail::MemoryError with what all of the tree needs, if leastAllowed() is more than is allowed, or what labels of
+/// a level of the pyramid need
 CoarseObject coarseObjectWithin(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter,
     StageSeconds* seconds)
 {
-    const TightOptions& options = settings.tight();
-    const auto leafNodes = std::size_t(detail::leafNodesOf(*voxels));
-    if (sureMemory(options, leafNodes).fits(settings.memory)) {
+    const WorkingMemory least = leastAllowed(settings, std::size_t(detail::leafNodesOf(*voxels)));
+    double needed = least.bytes;
+    if (least.fits(settings.memory)) {
         try {
-            return coarseObject(voxels, settings, sizeFor(options), interrupter, seconds);
-        } catch (const detail::MemoryError&) {
-            // The level at hand says what it needs itself.
+            return coarseObject(voxels, settings, sizeFor(settings.tight()), interrupter, seconds);
+        } catch (const detail::MemoryError& tooLittle) { // of a level that is not the last one
+            needed = tooLittle.needed();
         }
     }
-    refuseTightTree(
-        estimateTightTree(voxels, settings, interrupter), settings.dim, settings.memory);
+    refuseTightTree(estimateTightTree(voxels, settings, interrupter), settings, needed);
 }
 
 /// @throw detail::MemoryError if making levels from the leaf balls needs more memory than there may be

@@ -43,7 +43,8 @@ double LevelWork::ofSearches(int64_t balls) const
 
 double LevelWork::ofMoves(int64_t children) const
 {
-    return (0.2e-3 + 0.1e-6 * mLeaves) * double(children);
+    const double rounds = 0.5 + mMaker.childMoves / 16.0; // the first ones take longest
+    return rounds * (0.2e-3 + 0.1e-6 * mLeaves) * double(children);
 }
 
 double LevelWork::ofFreeCover(int64_t start, int64_t count) const

@@ -76,15 +76,17 @@ CoarseSize sizeFor(const TightOptions& options)
     return {leastLeafBalls(count, options.quality), enoughVoxels(count)};
 }
 
-WorkingMemory sureMemory(const TightOptions& options, std::size_t leafNodes)
+WorkingMemory leastAllowed(const SphereTreeSettings& settings, std::size_t leafNodes)
 {
+    const TightOptions& options = settings.tight();
     WorkingMemory memory;
     memory.addSamples(leafNodes);
     if (needsLeafBalls(options)) return memory;
-    const std::vector<int64_t> counts = options.budget.counts(INT64_MAX);
     const double voxels = double(kLeafVoxels) * double(leafNodes);
-    const double balls = std::min(double(counts.front()), voxels);
-    return counts.size() < 2 ? memory : memory.guessCover(balls, leafNodes);
+    for (const int64_t count : options.budget.counts(INT64_MAX)) {
+        memory.guessCover(std::min(double(count), voxels), leafNodes, settings.dim);
+    }
+    return memory;
 }
 
 bool makesLeafRegions(const TightOptions& options, bool allLeaves)
@@ -108,8 +110,8 @@ CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
             isObject ? settings.dist() : Distance(), interrupter, seconds, queries);
         object.samples = SampledObject(medial.layout);
         object.leaves = detail::timed("leaves", interrupter, &seconds->tree, [&] {
-            return medialLeaves(medial, object.samples.level(0),
-                isObject ? settings.tight().leaves : Leaves::Pruned, interrupter);
+            return medialLeaves(
+                medial, object.samples.level(0), settings.tight().leaves, interrupter);
         });
         if (isObject || int64_t(object.leaves.balls.size()) >= size.leafBalls) return object;
         if (detail::countVoxels(*object.levels.back()) >= size.voxels) return object;

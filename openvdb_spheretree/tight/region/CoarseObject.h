@@ -43,9 +43,11 @@ struct CoarseSize {
 /// @return the size that levels of named counts need; for all others, that of no coarse level.
 CoarseSize sizeFor(const TightOptions& options);
 
-/// @return what a tree needs whatever the leaf balls are: samples of the object, and regions of named counts.
+/// @return what a tree has to be allowed whatever its leaf balls are: samples of the object, and what is enough for regions
+/// of named counts, which are all there at a time where levels are carried down.
+/// @param settings   of a tight tree
 /// @param leafNodes  of the object
-WorkingMemory sureMemory(const TightOptions& options, std::size_t leafNodes);
+WorkingMemory leastAllowed(const SphereTreeSettings& settings, std::size_t leafNodes);
 
 /// @param allLeaves  whether the leaf balls are a level of the tree
 /// @return whether the voxels of each leaf ball are needed all at once.

@@ -59,14 +59,14 @@ WorkingMemory& WorkingMemory::guessRegions(
     return *this;
 }
 
-WorkingMemory& WorkingMemory::guessCover(double balls, std::size_t leafNodes)
+WorkingMemory& WorkingMemory::guessCover(double balls, std::size_t leafNodes, int dim)
 {
     // Of a share of 3,000 leaf nodes a ball was seen to meet 4,800 at most; of 500 1,500, of 60 600, of 10 270, and of 0.2 10:
     // those in a cube around it.
     constexpr double kBeyond = 4.6, kTimes = 2.6, kWhole = 0.4;
-    const double share = std::cbrt(double(leafNodes) / balls);
+    const double share = std::pow(double(leafNodes) / balls, 1.0 / dim);
     const double side = std::min(share + kBeyond, 1 + kTimes * share);
-    const double leaves = balls * std::min(double(leafNodes), side * side * side);
+    const double leaves = balls * std::min(double(leafNodes), std::pow(side, dim));
     addRegion({leaves, kWhole * leaves});
     return *this;
 }
@@ -85,7 +85,8 @@ double regionBytes(double leaves, double whole)
 
 bool WorkingMemory::fits(int64_t memory) const
 {
-    return bytes <= double(detail::allowedMemory(memory));
+    const double allowed = memory > 0 ? double(memory) : detail::physicalMemory();
+    return allowed == 0 || bytes <= allowed;
 }
 
 void WorkingMemory::require(int64_t memory, const std::string& what) const

@@ -33,9 +33,10 @@ struct WorkingMemory {
 
     /// About the same for a cover of so many balls that nobody knows yet, from above: in solids, sheets and hairs a
     /// ball meets leaf nodes up to 2.3 beyond its share of them.
-    WorkingMemory& guessCover(double balls, std::size_t leafNodes);
+    /// @param dim  2 where the object is flat
+    WorkingMemory& guessCover(double balls, std::size_t leafNodes, int dim);
 
-    /// @param memory  SphereTreeSettings::memory: what is allowed; 0: what the machine has
+    /// @param memory  SphereTreeSettings::memory: what is allowed; 0: all that the machine has
     /// @return whether it is no more
     bool fits(int64_t memory) const;
     /// @param memory  as of fits()

@@ -78,9 +78,11 @@ TEST(WorkingMemory, OfRegionsIsEnoughWhereABallHoldsPartsOfAllLeafNodes)
 /// Balls around the cells of a grid: no cover of a solid by balls of one size overlaps more.
 TEST(WorkingMemory, OfACoverIsEnoughForBallsOfAnySizeInASolid)
 {
-    constexpr int kSide = 64;
-    const SampledObject object(LeafLayout(*maskOf(shapes::box(Coord(kSide, kSide, kSide)))));
-    for (int apart = 4; apart <= kSide; apart *= 2) {
+    constexpr int kSide = 256;
+    openvdb::MaskTree solid;
+    solid.fill(openvdb::CoordBBox::createCube(Coord(0), kSide), true);
+    const SampledObject object((LeafLayout(solid)));
+    for (int apart = 8; apart <= kSide; apart *= 2) {
         std::vector<ExactSphere> balls;
         const int64_t half = kFine * apart / 2;
         for (int64_t x = half; x < kFine * kSide; x += 2 * half) {
@@ -92,7 +94,7 @@ TEST(WorkingMemory, OfACoverIsEnoughForBallsOfAnySizeInASolid)
         }
         WorkingMemory known, guessed;
         known.addRegions(balls, object.level(0), nullptr);
-        guessed.guessCover(double(balls.size()), object.level(0).leafCount());
+        guessed.guessCover(double(balls.size()), object.level(0).leafCount(), 3);
         EXPECT_GE(guessed.bytes, known.bytes) << apart;
         EXPECT_LE(guessed.bytes, 12 * known.bytes) << apart;
     }
