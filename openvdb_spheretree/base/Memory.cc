@@ -47,15 +47,27 @@ int64_t allowedMemory(int64_t memory)
 std::string asText(double bytes, bool up)
 {
     constexpr double kKiB = 1 << 10, kMiB = 1 << 20, kGiB = 1 << 30;
-    const double unit = bytes < kMiB ? kKiB : bytes < kGiB ? kMiB : kGiB;
+    double unit = kKiB;
+    const char* name = " KiB";
+    if (bytes >= kGiB) {
+        unit = kGiB;
+        name = " GiB";
+    } else if (bytes >= kMiB) {
+        unit = kMiB;
+        name = " MiB";
+    }
     constexpr double kWhole = 1e-3; // what was given in tenths of a unit is whole bytes
     const double tenths = bytes / unit * 10;
     detail::TextStream text;
-    text << (up ? std::ceil(tenths) : std::floor(tenths + kWhole)) / 10
-         << (unit == kKiB          ? " KiB"
-                    : unit == kMiB ? " MiB"
-                                   : " GiB");
+    text << (up ? std::ceil(tenths) : std::floor(tenths + kWhole)) / 10 << name;
     return text.str();
+}
+
+bool isAllowed(double bytes, int64_t memory)
+{
+    if (memory > 0) return bytes <= double(memory);
+    const double there = physicalMemory();
+    return there == 0 || bytes <= there;
 }
 
 void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
@@ -70,20 +82,21 @@ void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
 
 void requireMemory(double bytes, const std::string& what, const std::string& remedy)
 {
-    const double there = physicalMemory();
-    if (there == 0 || bytes <= there) return;
-    throw MemoryError(what + " need about " + asText(bytes) + ", more than the "
-            + asText(there, false) + " of this machine: " + remedy,
-        bytes);
+    requireAllowed(bytes, 0, what, remedy);
 }
 
 void requireAllowed(
     double bytes, int64_t memory, const std::string& what, const std::string& remedy)
 {
-    if (memory <= 0) return requireMemory(bytes, what, remedy);
-    if (bytes <= double(memory)) return;
-    throw MemoryError(what + " need about " + asText(bytes) + ", and memory= allows "
-            + asText(double(memory), false) + ": allow more, " + remedy,
+    if (isAllowed(bytes, memory)) return;
+    const std::string needed = what + " need about " + asText(bytes);
+    if (memory <= 0) {
+        throw MemoryError(needed + ", more than the " + asText(physicalMemory(), false)
+                + " of this machine: " + remedy,
+            bytes);
+    }
+    throw MemoryError(needed + ", and memory= allows " + asText(double(memory), false)
+            + ": allow more, " + remedy,
         bytes);
 }
 

@@ -32,6 +32,10 @@ constexpr double kMemoryShare = 0.75;
 /// @return the bytes; INT64_MAX if the machine's are not known.
 int64_t allowedMemory(int64_t memory);
 
+/// @param memory  bytes; 0: all that the machine has
+/// @return whether as much is no more than that, or nobody knows what the machine has.
+bool isAllowed(double bytes, int64_t memory);
+
 /// @return bytes for messages: as GiB, MiB or KiB with one decimal, rounded up (or down).
 std::string asText(double bytes, bool up = true);
 

@@ -74,8 +74,8 @@ MemoryPlan memoryPlan(const openvdb::BoolGrid& object, const SphereTreeSettings&
     openvdb::util::NullInterrupter* interrupter)
 {
     const openvdb::MaskTree::ConstPtr voxels = voxelsOf(object, flatAxisOf(object, settings.dim));
-    LeafLayout::requireRoom(*voxels); // levels of coarse objects, too, end there
     if (levelsAreGuessed(settings)) {
+        LeafLayout::requireRoom(*voxels); // levels that are made on a coarse object end there, too
         return tightPlan(
             tight::estimateTightTree(voxels, settings, interrupter), settings, interrupter);
     }

@@ -85,8 +85,7 @@ double regionBytes(double leaves, double whole)
 
 bool WorkingMemory::fits(int64_t memory) const
 {
-    const double allowed = memory > 0 ? double(memory) : detail::physicalMemory();
-    return allowed == 0 || bytes <= allowed;
+    return detail::isAllowed(bytes, memory);
 }
 
 void WorkingMemory::require(int64_t memory, const std::string& what) const
