@@ -234,6 +234,25 @@ TEST_F(MemoryPlanTest, WhatATightTreeIsRefusedWithIsEnough)
     EXPECT_GE(refused, 20);
 }
 
+/// A plan refuses what a build refuses before its leaf balls are known, with the same words.
+TEST_F(MemoryPlanTest, RefusesTheRegionsOfNamedCountsAsABuildDoes)
+{
+    const auto ball = ballGrid(90);
+    SphereTreeSettings settings = settingsOf(TreeType::Tight, 1);
+    settings.tight().quality = Quality::Fast;
+    settings.budgeted().budget.spheres = {64, 56, 48, 40};
+    const int64_t named = namedIn(refusalOf(*ball, settings));
+    int refused = 0;
+    for (int tenths = 1; tenths <= 9; ++tenths) {
+        settings.memory = named * tenths / 10;
+        const std::string why = refusalOf(*ball, settings);
+        if (why.find("a tight tree of this object") == std::string::npos) continue;
+        ++refused;
+        EXPECT_EQ(messageOf<openvdb::ValueError>([&] { memoryPlan(*ball, settings); }), why);
+    }
+    EXPECT_GE(refused, 5);
+}
+
 TEST_F(MemoryPlanTest, TooLittleIsRefused)
 {
     const auto ball = ballGrid(20);
