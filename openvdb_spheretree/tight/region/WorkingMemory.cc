@@ -83,10 +83,7 @@ double regionBytes(double leaves, double whole)
     return double(VoxelRegion::kBytesOfLeaf) * leaves + double(sizeof(LeafMask)) * (leaves - whole);
 }
 
-bool WorkingMemory::fits(int64_t memory) const
-{
-    return detail::isAllowed(bytes, memory);
-}
+bool WorkingMemory::fits(int64_t memory) const { return detail::isAllowed(bytes, memory); }
 
 void WorkingMemory::require(int64_t memory, const std::string& what) const
 {
