@@ -10,13 +10,13 @@
 #include <openvdb_spheretree/tight/level/BoundedErrors.h>
 #include <openvdb_spheretree/tight/level/CarriedLevels.h>
 #include <openvdb_spheretree/tight/level/CutLevels.h>
+#include <openvdb_spheretree/tight/level/FewLevels.h>
 #include <openvdb_spheretree/tight/level/FollowedLevels.h>
 #include <openvdb_spheretree/tight/level/FreeCovers.h>
 #include <openvdb_spheretree/tight/level/LevelCounts.h>
 #include <openvdb_spheretree/tight/level/LevelWork.h>
 #include <openvdb_spheretree/tight/level/MonotoneLevels.h>
 #include <openvdb_spheretree/tight/level/TightLevels.h>
-#include <openvdb_spheretree/tight/level/TopDownLevels.h>
 #include <openvdb_spheretree/tight/region/CoarseObject.h>
 #include <openvdb_spheretree/tight/region/LeafBalls.h>
 #include <openvdb_spheretree/tight/region/WorkingMemory.h>
@@ -24,7 +24,6 @@
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 #include <openvdb_spheretree/voxel/Masks.h>
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,17 +71,6 @@ struct TightSource {
     const LevelMaker& maker;
 };
 
-/// @return at most @a count balls that are bound to no others, in the sense of CoverSearch.h if there is to be
-/// a search.
-std::vector<ExactSphere> freeBalls(FreeCovers& free, int64_t count, const LevelMaker& maker)
-{
-    const std::vector<ExactSphere>& balls = free.cover(count);
-    if (!maker.searchesLevelOf(balls.size())) return balls;
-    const std::vector<ExactSphere>& smaller = free.cover(4 * count);
-    return ballsOf(withoutEmpty(
-        maker.improve(ungrouped(balls), ungrouped(smaller), VoxelGoal(maker.object.level(0)))));
-}
-
 /// @return the finest level of a tree: all leaf balls, or the fewest balls within the bounds.
 /// @param counts  receives those of all levels
 TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCovers& free,
@@ -109,7 +97,7 @@ TightLevel finestLevel(const SphereTree& tree, const TightSource& source, FreeCo
     maker.interrupter->expect(work.ofSearches(counts.front()) + work.fromBottom(counts));
     if (counts.front() == leafCount || !maker.searchesLevelOf(level.balls.size())) return level;
     // The search minimizes the sampled excess alone, and no distances: bounds may be lost.
-    const TightLevel searched{freeBalls(free, counts.front(), maker), {}, {}};
+    const TightLevel searched{free.searched(counts.front()), {}, {}};
     return keepsBounds(searched, tree, object, maker.interrupter) ? searched : level;
 }
 
@@ -121,34 +109,6 @@ std::vector<TightLevel> levelsOnFinest(const SphereTree& tree, const TightSource
     std::vector<int64_t> counts;
     const TightLevel finest = finestLevel(tree, source, free, counts);
     return bottomUpLevels(finest, counts, maker);
-}
-
-/// @return which of two trees' levels, as many in both, have the smaller product of errors.
-const std::vector<TightLevel>& betterOf(const std::vector<TightLevel>& some,
-    const std::vector<TightLevel>& others, const LevelMaker& maker)
-{
-    double gain = 0; // of `some`: the log of a ratio
-    for (std::size_t k = 0; k < some.size(); ++k) {
-        gain += std::log(1 + maker.costOf(others[k].balls));
-        gain -= std::log(1 + maker.costOf(some[k].balls));
-    }
-    return gain >= 0 ? some : others;
-}
-
-/// Of many balls the finest level is the better the less it is bound to, so it comes first. Few balls are
-/// made from the top as well, where clusters are starts: of plain solids that is better, and of others not.
-std::vector<TightLevel> levelsFrom(const std::vector<int64_t>& counts, FreeCovers& free,
-    bool areGiven, Quality quality, const LevelMaker& maker)
-{
-    const auto fromBottom = [&] {
-        return bottomUpLevels({freeBalls(free, counts.front(), maker), {}, {}}, counts, maker);
-    };
-    const auto fromTop = [&] { return topDownLevels(counts, free, !areGiven, quality, maker); };
-    if (counts.front() > kFewBalls) return fromBottom();
-    if (areFromTopAlone(counts, quality)) return fromTop();
-    const std::vector<TightLevel> top = fromTop(); // first: both take covers from `free`
-    const std::vector<TightLevel> bottom = fromBottom();
-    return betterOf(top, bottom, maker);
 }
 
 /// Levels of named counts: made where the pyramid suits them, and carried down to the object.
@@ -171,7 +131,10 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
         const LevelWork onFinest(maker, std::size_t(detail::leafNodesOf(*coarse.levels.front())));
         for (const int64_t count : counts) maker.interrupter->expect(onFinest.ofPlacing(count));
     }
-    auto levels = levelsFrom(counts, free, start.given != nullptr, options.quality, maker);
+    // Of many balls the finest level is the better the less it is bound to, so it comes first.
+    auto levels = counts.front() <= kFewOnCoarse
+        ? fewLevels(counts, free, start.given == nullptr, options.quality, maker)
+        : bottomUpLevels({free.searched(counts.front()), {}, {}}, counts, maker);
     std::optional<SampledObject> finer;
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
         finer.emplace(LeafLayout(*coarse.levels[step]));

@@ -35,6 +35,15 @@ const std::vector<ExactSphere>& FreeCovers::cover(int64_t count)
     return asked.balls;
 }
 
+std::vector<ExactSphere> FreeCovers::searched(int64_t count)
+{
+    const std::vector<ExactSphere>& balls = cover(count);
+    if (!mMaker.searchesLevelOf(balls.size())) return balls;
+    const std::vector<ExactSphere>& smaller = cover(4 * count);
+    return ballsOf(withoutEmpty(
+        mMaker.improve(ungrouped(balls), ungrouped(smaller), VoxelGoal(mMaker.object.level(0)))));
+}
+
 FreeCovers::Next FreeCovers::next(
     int64_t many, int64_t count, bool isStart, const LevelMaker& maker)
 {

@@ -36,6 +36,16 @@ public:
     /// on the way to one. It stays valid.
     const std::vector<ExactSphere>& cover(int64_t count);
 
+    /// @return at most @a count balls that are bound to no others, in the sense of CoverSearch.h if there is to be a search.
+    std::vector<ExactSphere> searched(int64_t count);
+
+    /// @return covers from the same start.
+    FreeCovers sameStart(const LevelMaker& maker) const
+    {
+        return {mCovers.at(mStart).balls, mAreInside, maker};
+    }
+    std::size_t startSize() const { return std::size_t(mStart); }
+
     /// The next cover on the way.
     struct Next {
         int64_t count; ///< of its balls, at most

@@ -14,6 +14,8 @@ namespace openvdb_spheretree::tight {
 
 /// Up to so many balls are few: more gain less from starts than they lose by what is above them.
 constexpr int64_t kFewBalls = 64;
+constexpr int64_t kFewOnCoarse =
+    kFewBalls + kFewBalls / 8; ///< as many more as a coarse object gets
 
 struct LevelEffort {
     FitEffort fit; ///< of balls that are placed anew

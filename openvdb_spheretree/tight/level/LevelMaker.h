@@ -37,6 +37,13 @@ struct LevelMaker : LevelEffort {
         return {*this, other, flat, interrupter, memory};
     }
 
+    /// @return the same for another quality.
+    /// @param leafBalls  of the whole object
+    LevelMaker ofQuality(Quality quality, std::size_t leafBalls) const
+    {
+        return {effortOf(quality, leafBalls), object, flat, interrupter, memory};
+    }
+
     /// @return `merging`; with diagonals where few balls are left: of dragon-512 64 have 72 in place of 77 % with
     /// `fast`.
     FitEffort mergingTo(int64_t count) const;

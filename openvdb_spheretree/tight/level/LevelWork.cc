@@ -2,7 +2,6 @@
 #include "LevelWork.h"
 
 #include "FreeCovers.h"
-#include "TopDownLevels.h"
 #include <openvdb_spheretree/tight/region/DilatedCover.h>
 
 #include <algorithm>
@@ -88,11 +87,14 @@ double LevelWork::fromTop(int64_t count, Quality quality) const
 double LevelWork::ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality,
     const std::vector<int64_t>& finer) const
 {
-    const bool few = counts.front() <= kFewBalls;
     double work = ofFreeCover(leafBalls, counts.front());
-    for (const int64_t count : counts) work += few ? fromTop(count, quality) : 0;
-    if (!few || !areFromTopAlone(counts, quality)) {
+    if (counts.front() > kFewOnCoarse) {
         work += ofSearches(counts.front()) + fromBottom(counts);
+    } else {
+        for (const Quality each : {Quality::Fast, Quality::Normal, Quality::Best}) { // FewLevels.h
+            if (each > quality) continue;
+            for (const int64_t count : counts) work += fromTop(count, each);
+        }
     }
     for (const int64_t leaves : finer) {
         for (const int64_t count : counts) {

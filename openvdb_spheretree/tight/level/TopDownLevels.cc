@@ -4,6 +4,7 @@
 #include "GroupedCover.h"
 #include "LevelRegions.h"
 #include "LevelWork.h"
+#include "TopDownEffort.h"
 #include <openvdb_spheretree/base/Stage.h>
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
 
@@ -19,37 +20,17 @@ namespace {
 constexpr std::size_t kRelocations = 2;
 constexpr FitEffort kStartFit{false, 4, 1, false, 16}; // of starts: they are placed anew later
 
-/// How much work a level gets.
-struct LevelEffort {
-    int seeds;                        ///< starts of as many clusters as the level has balls
-    std::vector<int64_t> timesAsMany; ///< starts of so many times as many clusters, merged
-    int kept;                         ///< starts that are placed anew
-    int keptInGroups;                 ///< the same below another level, where it takes longer
-    int trialsPerBall = 0;            ///< of the search of the best; 0: none
-    int mostTrials = 0;
-};
-
-/// Starts of many balls take longer, and differ less; those of large objects take longer.
-LevelEffort effortOf(Quality quality, int64_t count, std::size_t leaves)
-{
-    const bool many = count > 32, large = leaves > 1000;
-    const auto fewer = [&](int starts) {
-        return std::max(2, int(starts * 8 / std::max<int64_t>(8, count)));
-    };
-    if (quality == Quality::Fast) {
-        return large ? LevelEffort{fewer(4), {2}, 1, 1}
-                     : LevelEffort{fewer(4), {many ? 8 : 4}, 2, 1};
-    }
-    if (quality == Quality::Best) return {fewer(96), {2, 4, 8}, fewer(24), 8, 100, 6400};
-    if (large && many) return {2, {2, 4}, 2, 2, 16, 640};
-    return {fewer(large ? 16 : 48), {2, 4, 8}, fewer(large ? 4 : 12), many ? 2 : 3, 16, 640};
-}
-
 /// The balls of a level with their groups, and what they cost.
 struct Found {
     std::vector<CoverBall> balls;
     double cost = std::numeric_limits<double>::infinity();
 };
+
+/// @return the one that costs less; of two as good the first.
+Found better(Found one, Found other)
+{
+    return other.cost < one.cost ? std::move(other) : std::move(one);
+}
 
 class TopDownLevels {
 public:
@@ -59,24 +40,63 @@ public:
         if (withClusters) mBlocks = voxelBlocks(mVoxels, kBlocks);
     }
 
-    /// Makes the next finer level.
-    TightLevel next(int64_t count)
+    /// @return levels of these counts. None costs more than its given one, if levels are given.
+    std::vector<TightLevel> levels(
+        const std::vector<int64_t>& counts, const std::vector<TightLevel>& given)
     {
-        const bool isFirst = mAbove.balls.empty();
-        const Found fewer = isFirst ? oneBall() : mFound;
-        Found best = fewer.cost > 0 && count > 1 ? searched(count, fewer.cost) : Found();
-        if (fewer.cost <= best.cost) best = {eachInItsGroup(ballsOf(fewer.balls)), fewer.cost};
-        TightLevel level;
-        level.balls = ballsOf(best.balls);
-        if (!isFirst) level.parent = groupsOf(best.balls);
-        mRegions = chainRegions(level, mRegions, mMaker);
-        mFound = std::move(best);
-        mAbove = level;
-        return level;
+        std::vector<TightLevel> levels(counts.size());
+        for (std::size_t k = counts.size(); k-- > 0;) {
+            const Found known = given.empty() ? Found() : foundOf(given[k]);
+            Found level = found(counts[k], {});
+            if (known.cost < level.cost) {
+                startBelow(given, k + 1);
+                std::copy(given.begin() + k + 1, given.end(), levels.begin() + k + 1);
+                level = found(counts[k], known);
+            }
+            levels[k] = goOn(std::move(level));
+        }
+        return levels;
     }
 
 private:
     static constexpr std::size_t kBlocks = 4096;
+
+    /// @return the balls of the next finer level.
+    /// @param start  balls in the groups of the level above, which are improved as well; or none
+    Found found(int64_t count, const Found& start) const
+    {
+        const Found fewer = mAbove.balls.empty() ? oneBall() : mFound;
+        Found best = fewer.cost > 0 && count > 1 ? searched(count, fewer.cost, start) : start;
+        if (fewer.cost <= best.cost) best = {eachInItsGroup(ballsOf(fewer.balls)), fewer.cost};
+        return best;
+    }
+
+    /// Goes on below a level, which hangs below the one before.
+    TightLevel goOn(Found level)
+    {
+        const bool isFirst = mAbove.balls.empty();
+        mAbove = {
+            ballsOf(level.balls), isFirst ? std::vector<int32_t>() : groupsOf(level.balls), {}};
+        mRegions = chainRegions(mAbove, mRegions, mMaker);
+        mFound = std::move(level);
+        return mAbove;
+    }
+
+    /// Goes on below the given levels, of which this is the finest, in place of its own.
+    void startBelow(const std::vector<TightLevel>& given, std::size_t finest)
+    {
+        mAbove = {};
+        mRegions.clear();
+        for (std::size_t k = given.size(); k-- > finest;) goOn(foundOf(given[k]));
+    }
+
+    /// @return a level, with parents as groups, and what it costs.
+    Found foundOf(const TightLevel& level) const
+    {
+        std::vector<CoverBall> balls = ungrouped(level.balls);
+        for (std::size_t i = 0; i < level.parent.size(); ++i) balls[i].group = level.parent[i];
+        return withCost(std::move(balls));
+    }
 
     /// One ball is one fit: it gets all the effort there is.
     Found oneBall() const
@@ -88,22 +108,22 @@ private:
     }
 
     /// @param fewer  what fewer balls cost
-    Found searched(int64_t count, double fewer) const
+    Found searched(int64_t count, double fewer, const Found& start) const
     {
         constexpr double kStarts = 0.4, kSearch = 0.6; // of the work
         const double work = LevelWork(mMaker).fromTop(count, mQuality);
-        const LevelEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
+        const TopDownEffort effort = topDownEffort(mQuality, count, mVoxels.leafCount());
         Found best = [&] {
             const detail::Step step(mMaker.interrupter, kStarts * work);
             const detail::Stage loops("", mMaker.interrupter, nullptr); // each is a detail
-            return bestStart(count, fewer);
+            const Found own = bestStart(count, fewer);
+            return start.balls.empty() ? own : better(own, better(start, improved(start.balls, 0)));
         }();
         const detail::Step step(mMaker.interrupter, kSearch * work);
         if (best.balls.empty() || best.cost <= 0) return best;
         const int trials = trialsFor(best.balls, effort);
         if (trials == 0) return best;
-        Found found = improved(best.balls, trials);
-        return found.cost < best.cost ? found : best;
+        return better(best, improved(best.balls, trials));
     }
 
     /// @return the start that is cheapest after it was placed anew.
@@ -113,7 +133,7 @@ private:
         // corners of its own; few of them may still be better.
         constexpr double kHopeless = 4;
         constexpr int64_t kFewer = 8, kFewest = 2;
-        const LevelEffort effort = effortOf(mQuality, count, mVoxels.leafCount());
+        const TopDownEffort effort = topDownEffort(mQuality, count, mVoxels.leafCount());
         const std::vector<Found> starts = startsOf(count, effort);
         if (starts.front().cost > kHopeless * fewer) {
             const int64_t less = std::max(
@@ -123,14 +143,13 @@ private:
         Found best;
         const int kept = mAbove.balls.empty() ? effort.kept : effort.keptInGroups;
         for (int i = 0; i < std::min(kept, int(starts.size())); ++i) {
-            Found placed = improved(inGroups(starts[i].balls, count), 0);
-            if (placed.cost < best.cost) best = std::move(placed);
+            best = better(best, improved(inGroups(starts[i].balls, count), 0));
         }
         return best;
     }
 
     /// @return covers of at most @a count balls, the cheapest first, and one of each cost.
-    std::vector<Found> startsOf(int64_t count, const LevelEffort& effort) const
+    std::vector<Found> startsOf(int64_t count, const TopDownEffort& effort) const
     {
         std::vector<Found> starts;
         const auto add = [&](const std::vector<ExactSphere>& balls) {
@@ -195,7 +214,7 @@ private:
 
     /// A trial takes longer where balls are large. A search of few trials is none: what moves balls
     /// elsewhere would take most of its time.
-    int trialsFor(const std::vector<CoverBall>& balls, const LevelEffort& effort) const
+    int trialsFor(const std::vector<CoverBall>& balls, const TopDownEffort& effort) const
     {
         const std::size_t leavesInAll =
             mQuality == Quality::Best ? 300000 : 30000; // in all trials' balls
@@ -226,21 +245,15 @@ private:
 } // namespace
 
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
-    bool withClusters, Quality quality, const LevelMaker& maker)
+    bool withClusters, Quality quality, const LevelMaker& maker,
+    const std::vector<TightLevel>& given)
 {
     for (const int64_t count : counts) { // fewer balls come from more
         if (count > 1) free.cover(count);
     }
-    TopDownLevels from(free, withClusters, quality, maker);
-    std::vector<TightLevel> levels(counts.size());
-    for (std::size_t k = counts.size(); k-- > 0;) levels[k] = from.next(counts[k]);
+    auto levels = TopDownLevels(free, withClusters, quality, maker).levels(counts, given);
     for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);
     return levels;
-}
-
-bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality)
-{
-    return counts.size() == 1 || quality == Quality::Fast;
 }
 
 } // namespace openvdb_spheretree::tight

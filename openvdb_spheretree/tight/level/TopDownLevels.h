@@ -11,9 +11,8 @@
 ///    count within these, and placed anew until nothing changes. The coarsest level is bound to nothing.
 /// 3. The best of them is searched (CoverSearch.h) where time allows it.
 /// 4. A level that would cost more than the one above it, or than one ball, is a copy of that.
-///
-/// A level may cost more than the same level of less quality where those above it cost less: it is bound to
-/// these.
+/// 5. Other levels of as many balls may be given, such as those of less quality. One that would cost more than its given
+/// level, as it is bound to better ones above it, is made again: below the given ones, from the given one.
 ///
 /// Cost: by the balls that are asked for, and passes over the voxels; not by leaf balls. Costs are
 /// counted on samples.
@@ -31,14 +30,14 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @param counts        of balls, finest first, falling; at most kFewBalls
+/// @param counts        of balls, finest first, falling; at most kFewOnCoarse
 /// @param free          of the same object
 /// @param withClusters  try balls around clusters, too
 /// @param quality       how many starts there are, and how long the best is searched
+/// @param given         levels of the same counts, or none
+/// @return the levels; none costs more than the given one.
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
-    bool withClusters, Quality quality, const LevelMaker& maker);
-
-/// @return whether few balls are not worth the time of another try, from the bottom.
-bool areFromTopAlone(const std::vector<int64_t>& counts, Quality quality);
+    bool withClusters, Quality quality, const LevelMaker& maker,
+    const std::vector<TightLevel>& given = {});
 
 } // namespace openvdb_spheretree::tight

@@ -26,6 +26,15 @@ std::vector<TightLevel> levelsOf(const Merged& merged, const std::vector<int64_t
     return topDownLevels(counts, free, withClusters, quality, merged.maker);
 }
 
+/// @return what levels of `fast` hold around the object that know others.
+std::vector<int64_t> aroundBelow(
+    const Merged& merged, const std::vector<int64_t>& counts, const std::vector<TightLevel>& given)
+{
+    FreeCovers free(merged.leaves, true, merged.maker);
+    return expectChains(
+        topDownLevels(counts, free, true, Quality::Fast, merged.maker, given), merged.voxels);
+}
+
 Voxels ring(int count)
 {
     Voxels voxels;
@@ -98,6 +107,25 @@ TEST(TopDownLevels, WorkEndsWhereOneBallCostsNothing)
     const auto levels = levelsOf(merged, {40, 8, 1}, Quality::Normal);
     for (const TightLevel& level : levels) EXPECT_EQ(level.balls.size(), 1u);
     EXPECT_EQ(expectChains(levels, merged.voxels), (std::vector<int64_t>{0, 0, 0}));
+}
+
+TEST(TopDownLevels, OfGivenOnesNoneCostsMore)
+{
+    Random random(8);
+    for (int turn = 0; turn < 4; ++turn) {
+        const Merged merged(shapes::noise(Coord(10, 9, 8), 0.4, random));
+        const std::vector<int64_t> counts{12, 6, 3};
+        const auto given = levelsOf(merged, counts, Quality::Best);
+        const auto around = expectChains(given, merged.voxels),
+                   quick = expectChains(levelsOf(merged, counts, Quality::Fast), merged.voxels);
+        const auto found = aroundBelow(merged, counts, given);
+        for (std::size_t k = 0; k < counts.size(); ++k) EXPECT_LE(found[k], around[k]);
+        EXPECT_LT(found, quick);
+        const ExactSphere all = merged.cut(1).front();
+        EXPECT_EQ(
+            aroundBelow(merged, counts, {{{all}, {0}, {}}, {{all}, {0}, {}}, {{all}, {}, {}}}),
+            quick); // it costs more than any level
+    }
 }
 
 /// Of given spheres, levels are made by merging these alone.
