@@ -315,6 +315,11 @@ void checkValue(const OptionSpec& option, const std::string& value)
         throwUsage(option.name + "=" + value + " is unknown: it takes " + allowedText(option));
     }
     if (!isAllowed(option, value)) {
+        const std::string number = value.substr(0, value.size() - 1);
+        if (option.kind == OptionKind::Real && value.back() == '%' && isAllowed(option, number)) {
+            throwUsage(option.name + "=" + value + ": numbers have no unit here (did you mean "
+                + option.name + "=" + number + "?)");
+        }
         throwUsage(option.name + "=" + value + " is out of range or not understood: " + "it takes "
             + allowedText(option));
     }

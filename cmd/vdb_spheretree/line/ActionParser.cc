@@ -91,6 +91,19 @@ void addOption(ActionCall& call, const std::string& token, size_t equals)
     call.give(option, value);
 }
 
+/// @return the option that has a choice of this name; null unless it is a single one.
+const OptionSpec* optionOfChoice(const ActionSpec& spec, const std::string& choice)
+{
+    const OptionSpec* found = nullptr;
+    for (const OptionSpec& option : spec.options) {
+        const auto& choices = option.choices;
+        if (std::find(choices.begin(), choices.end(), choice) == choices.end()) continue;
+        if (found) return nullptr;
+        found = &option;
+    }
+    return found;
+}
+
 void addMain(ActionCall& call, const std::string& token)
 {
     const ActionSpec& spec = call.spec();
@@ -109,6 +122,11 @@ void addMain(ActionCall& call, const std::string& token)
     if (option.kind == OptionKind::Choice && spec.option(token)) {
         throwUsage(
             call.label() + ": '" + token + "' is an option: give it a value, " + token + "=...");
+    }
+    const OptionSpec* other = optionOfChoice(spec, token);
+    if (option.kind == OptionKind::Choice && other && other != &option) {
+        throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
+            + other->name + "=" + token + "?)");
     }
     const bool takesMany = option.kind == OptionKind::List || option.kind == OptionKind::Words;
     if (!takesMany && call.given(option.name)) {

@@ -123,7 +123,7 @@ void CutErrors::throwUnreachable()
     OPENVDB_THROW(openvdb::ValueError,
         boundsText(mBudget) << " cannot be reached: padding=" << paddingToString(mSettings.padding)
                             << " makes stored radii " << mSettings.paddingVoxels() * mVoxelSize
-                            << " larger" << what.str()
+                            << " world units larger" << what.str()
                             << ": use smaller voxels, less padding (padding=voxels has none, and "
                                "covers centers of voxels alone), "
                             << (mBudget.bounds == BoundOf::Stored
@@ -163,7 +163,7 @@ void requireReachable(const SphereTreeSettings& settings, double voxelSize)
         "distance=" << distanceBoundToString(budget)
                     << " cannot be reached: padding=" << paddingToString(settings.padding)
                     << " makes stored radii " << settings.paddingVoxels() * voxelSize
-                    << " larger, and alone reaches at least " << least
+                    << " world units larger, and alone reaches at least " << least
                     << " out of the object's voxels, of " << voxelSize
                     << ": use smaller voxels, less padding (padding=voxels has none, and covers "
                        "centers of voxels alone), or a larger "

@@ -132,7 +132,7 @@ TEST(LevelCounts, SayWhatWasFoundWhereNoneIsWithin)
         [&] { levelCounts(settingsOf(budget, BoundOf::Stored), 8, 2, errorsOf(percent)); });
     EXPECT_TRUE(mentions(message,
         "error=5 and distance=0.5 cannot be reached: padding=cubes makes "
-        "stored radii 1.73205 larger"));
+        "stored radii 1.73205 world units larger"));
     EXPECT_TRUE(mentions(message, "the least error found is 6%, with 4 of 8 spheres"));
     EXPECT_TRUE(mentions(message, "the least reach found is 0.6, with 4 of 8 spheres"));
     EXPECT_TRUE(mentions(message, "padding=voxels"));
