@@ -123,21 +123,20 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
     const bool onObject = coarse.steps.empty();
     auto counts = options.budget.counts(onObject ? int64_t(leafBalls.size()) : INT64_MAX);
     const int64_t most = counts.front();
-    // Some are not needed on the fine object.
-    if (!onObject) counts.front() += counts.front() / 8;
     maker.interrupter->expect(LevelWork(maker).ofCounts(int64_t(leafBalls.size()), counts,
         options.quality, coarse.leafNodesBelow(coarse.steps.size())));
+    if (!onObject) counts.front() += moreOnCoarse(most);
     if (start.last) {
         const LevelWork onFinest(maker, std::size_t(detail::leafNodesOf(*coarse.levels.front())));
         for (const int64_t count : counts) maker.interrupter->expect(onFinest.ofPlacing(count));
     }
     // Of many balls the finest level is the better the less it is bound to, so it comes first.
-    auto levels = counts.front() <= kFewOnCoarse
+    auto levels = most <= kFewBalls
         ? fewLevels(counts, free, start.given == nullptr, options.quality, maker)
         : bottomUpLevels({free.searched(counts.front()), {}, {}}, counts, maker);
     std::optional<SampledObject> finer;
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
-        finer.emplace(LeafLayout(*coarse.levels[step]));
+        finer.emplace(LeafLayout(*coarse.levels[step]), settings.dim == 2);
         levels =
             carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
                 levelMakerFor(settings, *finer, leafBalls.size(), maker.interrupter));
@@ -154,7 +153,7 @@ CoarseObject objectOf(const SphereTree& given, const FlatAxis& flat,
 {
     CoarseObject object;
     object.levels.push_back(voxels);
-    object.samples = SampledObject(LeafLayout(*voxels));
+    object.samples = SampledObject(LeafLayout(*voxels), given.settings.dim == 2);
     object.leaves = givenLeaves(given, flat, *voxels, object.samples.level(0), interrupter);
     return object;
 }

@@ -146,6 +146,78 @@ TEST(TightTrees, MadeOnACoarseLevelKeepTheirChains)
     }
 }
 
+/// @return the voxels between two circles in the plane z = 5, some of them missing.
+Voxels flatRing(int inner, int outer, Random& random)
+{
+    Voxels voxels;
+    for (int x = -outer; x <= outer; ++x) {
+        for (int y = -outer; y <= outer; ++y) {
+            const int sq = x * x + y * y;
+            const bool isIn = sq >= inner * inner && sq <= outer * outer;
+            if (isIn && !random.chance(0.005)) voxels.emplace_back(x, y, 5);
+        }
+    }
+    return voxels;
+}
+
+/// The coarse levels of more quality are better, and the finer ones are bound to them.
+TEST(TightTrees, OfFewSpheresHaveNoMoreErrorThanWithLessQuality)
+{
+    Random random(6);
+    struct Case {
+        Voxels voxels;
+        int dim;
+    };
+    const std::vector<Case> cases{{flatRing(9, 18, random), 2}, {flatRing(14, 21, random), 2},
+        {shapes::pricked(shapes::ball(120, 40), 0.02, random), 3},
+        {shapes::pricked(shapes::box(Coord(26, 9, 13)), 0.01, random), 3}};
+    for (const Case& some : cases) {
+        const auto grid = gridOf(some.voxels);
+        for (const std::vector<int64_t>& spheres :
+            {std::vector<int64_t>{20, 9, 4}, std::vector<int64_t>{8}, std::vector<int64_t>{3}}) {
+            std::vector<double> before;
+            for (const Quality quality : {Quality::Fast, Quality::Normal, Quality::Best}) {
+                SphereTreeSettings settings = tightSettings(quality);
+                settings.dim = some.dim;
+                settings.budgeted().budget = SphereBudget();
+                settings.budgeted().budget.spheres = spheres;
+                SphereTree tree = buildSphereTree(*grid, settings);
+                computeLevelErrors(tree, *grid);
+                ASSERT_EQ(tree.levels.size(), spheres.size());
+                std::vector<double> errors;
+                for (const SphereTreeLevel& level : tree.levels) {
+                    errors.push_back(level.error->hammingPercent);
+                }
+                for (std::size_t k = 0; k < before.size(); ++k) {
+                    EXPECT_LE(errors[k], before[k])
+                        << describeTight(settings) << ", level " << k << ", " << some.voxels.size();
+                }
+                before = errors;
+            }
+        }
+    }
+}
+
+/// Counted in space, four discs of a ring would cost less than the one that holds it.
+TEST(TightTrees, OfARingInTwoDimensionsAreNotWorseThanOneDisc)
+{
+    Random random(7);
+    const auto grid = gridOf(flatRing(16, 31, random));
+    for (const Quality quality : {Quality::Fast, Quality::Normal}) {
+        std::vector<double> errors;
+        for (const int64_t count : {1, 3, 4, 8}) {
+            SphereTreeSettings settings = tightSettings(quality);
+            settings.dim = 2;
+            settings.budgeted().budget = SphereBudget();
+            settings.budgeted().budget.spheres = {count};
+            SphereTree tree = buildSphereTree(*grid, settings);
+            computeLevelErrors(tree, *grid);
+            errors.push_back(tree.levels.front().error->hammingPercent);
+            EXPECT_LE(errors.back(), errors.front()) << count << " spheres";
+        }
+    }
+}
+
 TEST(TightTrees, PrunedLeavesAreFewerThanMedialOnes)
 {
     for (const RandomObject& object : smallObjects()) {

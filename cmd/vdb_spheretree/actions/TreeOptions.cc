@@ -19,6 +19,7 @@ OptionSpec optionOf(const Setting& setting)
 {
     OptionSpec option{setting.name, OptionKind::Text, setting.fallback, setting.help,
         setting.lowest, setting.highest, setting.choices};
+    option.isPercent = setting.name == "error";
     switch (setting.type) {
     case SettingType::Choice: option.kind = OptionKind::Choice; break;
     case SettingType::Flag: option.kind = OptionKind::Flag; break;
@@ -53,10 +54,11 @@ void refuseOptionsOfOtherTrees(const ActionCall& call)
         } else if (inner && (!setting.inner || setting.isBound)) {
             refuse(call, setting.name, "is for spheres that cover the object, not for side=inner");
         } else if (fit && !setting.fit) {
-            refuse(call, setting.name,
-                setting.inner && !setting.tight
-                    ? "is for side=inner, not for side=fit"
-                    : "is for spheres that cover the object or lie inside it, not for side=fit");
+            const bool isForInner = setting.inner && !setting.isBound;
+            const std::string other = !setting.tight ? "side=inner"
+                : isForInner ? "spheres that cover the object or lie inside it"
+                             : "spheres that cover the object";
+            refuse(call, setting.name, "is for " + other + ", not for side=fit");
         } else if (tight && !inner && !fit && !setting.tight) {
             refuse(call, setting.name, "is for side=inner, not for spheres that cover the object");
         }

@@ -4,10 +4,12 @@
 #include "expression/Expression.h"
 #include "expression/FrameName.h"
 #include "Length.h"
+#include "base/DidYouMean.h"
 
 #include <openvdb_spheretree/base/Text.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -312,12 +314,15 @@ void checkValue(const OptionSpec& option, const std::string& value)
         throwUsage("an item of " + option.name + "=" + value + " is empty");
     }
     if (option.kind == OptionKind::Choice && !isAllowed(option, value)) {
-        throwUsage(option.name + "=" + value + " is unknown: it takes " + allowedText(option));
+        std::string lower;
+        for (const char c : value) lower += char(std::tolower(static_cast<unsigned char>(c)));
+        throwUsage(option.name + "=" + value + " is unknown: it takes " + allowedText(option)
+            + didYouMean(lower, option.choices));
     }
     if (!isAllowed(option, value)) {
         const std::string number = value.substr(0, value.size() - 1);
-        if (option.kind == OptionKind::Real && value.back() == '%' && isAllowed(option, number)) {
-            throwUsage(option.name + "=" + value + ": numbers have no unit here (did you mean "
+        if (option.isPercent && value.back() == '%' && isAllowed(option, number)) {
+            throwUsage(option.name + "=" + value + ": it is in percent as it is (did you mean "
                 + option.name + "=" + number + "?)");
         }
         throwUsage(option.name + "=" + value + " is out of range or not understood: " + "it takes "

@@ -50,6 +50,7 @@ struct OptionSpec {
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices = {};
+    bool isPercent = false; ///< a number without a sign behind it
 
     /// @return whether @a prefix stands for it. A `name` takes two letters: n is a number to many; so do
     ///         `frames`: f was `files` before there were any.

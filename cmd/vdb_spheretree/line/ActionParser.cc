@@ -91,17 +91,20 @@ void addOption(ActionCall& call, const std::string& token, size_t equals)
     call.give(option, value);
 }
 
-/// @return the option that has a choice of this name; null unless it is a single one.
-const OptionSpec* optionOfChoice(const ActionSpec& spec, const std::string& choice)
+bool hasChoice(const OptionSpec& option, const std::string& choice)
 {
-    const OptionSpec* found = nullptr;
+    return std::find(option.choices.begin(), option.choices.end(), choice) != option.choices.end();
+}
+
+/// @return the options that have a choice of this name, each with it, as they would be typed.
+std::string optionsOfChoice(const ActionSpec& spec, const std::string& choice)
+{
+    std::string all;
     for (const OptionSpec& option : spec.options) {
-        const auto& choices = option.choices;
-        if (std::find(choices.begin(), choices.end(), choice) == choices.end()) continue;
-        if (found) return nullptr;
-        found = &option;
+        if (!hasChoice(option, choice)) continue;
+        all += (all.empty() ? "" : " or ") + option.name + "=" + choice;
     }
-    return found;
+    return all;
 }
 
 void addMain(ActionCall& call, const std::string& token)
@@ -123,10 +126,12 @@ void addMain(ActionCall& call, const std::string& token)
         throwUsage(
             call.label() + ": '" + token + "' is an option: give it a value, " + token + "=...");
     }
-    const OptionSpec* other = optionOfChoice(spec, token);
-    if (option.kind == OptionKind::Choice && other && other != &option) {
-        throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
-            + other->name + "=" + token + "?)");
+    if (option.kind == OptionKind::Choice && !hasChoice(option, token)) {
+        const std::string meant = optionsOfChoice(spec, token);
+        if (!meant.empty()) {
+            throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
+                + meant + "?)");
+        }
     }
     const bool takesMany = option.kind == OptionKind::List || option.kind == OptionKind::Words;
     if (!takesMany && call.given(option.name)) {

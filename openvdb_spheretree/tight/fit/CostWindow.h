@@ -9,7 +9,7 @@
 ///
 /// Coordinates are relative to the window's origin, in 1/16 of a sample. At sample level 0 they are
 /// exact for balls that fit in the window. Above it, centers and radii are rounded, and a bit stands
-/// for 8^level voxels.
+/// for 8^level voxels; in a flat object, of which only samples of its z cost, for 4^level.
 /// Cost: to fill, a byte for 8 samples; to count, a square root for each row and a word for 64
 /// samples.
 
@@ -46,7 +46,7 @@ public:
     /// @return the finest level of samples that has no more than @a samples in @a radius.
     static int levelFor(double radius, int samples);
 
-    /// Starts anew: every sample of the box that is outside the object costs.
+    /// Starts anew: every sample of the box that is outside the object costs; of a flat one, where it has its z.
     void reset(const SampledObject& object, const FineBox& box, int level);
     /// Clears the bits in @a ball: another ball of the cover.
     void cover(const ExactSphere& ball) { cover(toLocal(ball)); }
@@ -61,10 +61,11 @@ public:
     /// @return an empty ball with the center of a local one.
     ExactSphere centerOf(const LocalBall& ball) const;
     int level() const { return mLevel; } ///< a sample stands for 2^level voxels along each axis
-    int64_t voxelsPerSample() const { return int64_t(1) << std::min(3 * mLevel, 60); }
+    int64_t voxelsPerSample() const { return int64_t(1) << std::min(mDim * mLevel, 60); }
 
 private:
     int mLevel = 0;
+    int mDim = 3;        ///< of the object
     double mToLocal = 1; ///< 2^-level
     int64_t mFineOrigin[3] = {0, 0, 0};
     int32_t mSize[3] = {0, 0, 0}; ///< samples

@@ -20,7 +20,8 @@ uint64_t everySecond(uint64_t word)
     return bits;
 }
 
-SampleLevel coarser(const SampleLevel& fine)
+/// @param isFlat  the samples of one z, which may be odd, become those of the even z below it
+SampleLevel coarser(const SampleLevel& fine, bool isFlat)
 {
     std::vector<std::pair<Coord, uint32_t>> order; // leaves by the one that takes their samples
     for (uint32_t leaf = 0; leaf < fine.leafCount(); ++leaf) {
@@ -36,7 +37,8 @@ SampleLevel coarser(const SampleLevel& fine)
             const LeafMask& child = fine.mask(order[i].second);
             const Coord corner = (fine.origin(order[i].second) >> 1) & 4;
             for (int x = 0; x < 4; ++x) {
-                mask[corner[0] + x] |= everySecond(child[2 * x]) << (8 * corner[1] + corner[2]);
+                const uint64_t word = isFlat ? child[2 * x] | child[2 * x] >> 1 : child[2 * x];
+                mask[corner[0] + x] |= everySecond(word) << (8 * corner[1] + corner[2]);
             }
         }
         if (mask.none()) continue;
@@ -44,6 +46,18 @@ SampleLevel coarser(const SampleLevel& fine)
         masks.push_back(mask);
     }
     return SampleLevel(std::move(origins), std::move(masks));
+}
+
+/// @return the z of the voxels of a flat object.
+int32_t planeOf(const SampleLevel& voxels)
+{
+    constexpr uint64_t kRow = 0x0101010101010101; // voxels of one z
+    for (int z = 0; z < kLeafDim; ++z) {
+        for (int x = 0; x < kLeafDim; ++x) {
+            if (voxels.mask(0)[x] & kRow << z) return voxels.origin(0)[2] + z;
+        }
+    }
+    return voxels.origin(0)[2]; // no leaf is without voxels
 }
 
 SampleLevel levelOf(const LeafLayout& object)
@@ -88,14 +102,17 @@ std::size_t SampleLevel::firstLeaf(std::size_t column, int32_t z) const
     return std::size_t(std::lower_bound(begin, end, z, below) - mOrigins.begin());
 }
 
-SampledObject::SampledObject(const LeafLayout& object) : SampledObject(levelOf(object)) {}
+SampledObject::SampledObject(const LeafLayout& object, bool isFlat)
+    : SampledObject(levelOf(object), isFlat)
+{}
 
-SampledObject::SampledObject(SampleLevel finest)
+SampledObject::SampledObject(SampleLevel finest, bool isFlat)
 {
+    if (isFlat && finest.leafCount() > 0) mPlane = planeOf(finest);
     mLevels.push_back(std::move(finest));
     constexpr int kMaxLevels = 32; // coordinates have 32 bits
     while (mLevels.back().leafCount() > 0 && levels() < kMaxLevels) {
-        mLevels.push_back(coarser(mLevels.back()));
+        mLevels.push_back(coarser(mLevels.back(), isFlat));
     }
 }
 

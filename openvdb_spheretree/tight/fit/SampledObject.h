@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace openvdb_spheretree::tight {
@@ -68,8 +69,9 @@ class SampledObject {
 public:
     /// Of an object without voxels.
     SampledObject() : mLevels(1, SampleLevel({}, {})) {}
-    explicit SampledObject(const LeafLayout& object);
-    explicit SampledObject(SampleLevel finest);
+    /// @param isFlat  its voxels have one z, and balls are discs: samples of other z cost nothing
+    explicit SampledObject(const LeafLayout& object, bool isFlat = false);
+    explicit SampledObject(SampleLevel finest, bool isFlat = false);
 
     /// @param k  0 or more; levels beyond the last one have no samples
     const SampleLevel& level(int k) const
@@ -77,8 +79,14 @@ public:
         return mLevels[std::min(std::size_t(k), mLevels.size() - 1)];
     }
     int levels() const { return int(mLevels.size()); }
+    /// @return the z of a level's samples, if the object is flat. No level is without samples as its z is odd.
+    std::optional<int32_t> plane(int k) const
+    {
+        return mPlane ? std::optional<int32_t>(*mPlane >> k) : std::nullopt;
+    }
 
 private:
+    std::optional<int32_t> mPlane;    ///< z of a flat object
     std::vector<SampleLevel> mLevels; ///< the last one is empty
 };
 

@@ -5,8 +5,7 @@
 /// Levels of the next lower quality come first, and are given to those that are made from the top (TopDownLevels.h). More
 /// effort alone would not do: where it makes a coarse level better, the finer ones are bound to that, and may be worse.
 ///
-/// Cost: as of all qualities up to this one; each takes four to eight times as long as the one below it. Costs are counted on
-/// samples, with the effort of each quality.
+/// Cost: as of all qualities up to this one. The lower ones take less than a fourth of it. Costs are counted on samples.
 
 #pragma once
 
@@ -20,10 +19,10 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @param counts        of balls, finest first, falling; at most kFewOnCoarse
+/// @param counts        of balls, finest first, falling; at most kFewOnCoarse of them
 /// @param free          of the object, with @a maker
 /// @param withClusters  try balls around clusters, too
-/// @param maker         with the effort of @a quality
+/// @param quality       that of @a maker
 std::vector<TightLevel> fewLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool withClusters, Quality quality, const LevelMaker& maker);
 

@@ -40,10 +40,12 @@ public:
     std::vector<ExactSphere> searched(int64_t count);
 
     /// @return covers from the same start.
+    /// @param maker  has to outlive them
     FreeCovers sameStart(const LevelMaker& maker) const
     {
         return {mCovers.at(mStart).balls, mAreInside, maker};
     }
+    FreeCovers sameStart(LevelMaker&& maker) const = delete;
     std::size_t startSize() const { return std::size_t(mStart); }
 
     /// The next cover on the way.

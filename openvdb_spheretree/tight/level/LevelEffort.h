@@ -14,8 +14,9 @@ namespace openvdb_spheretree::tight {
 
 /// Up to so many balls are few: more gain less from starts than they lose by what is above them.
 constexpr int64_t kFewBalls = 64;
-constexpr int64_t kFewOnCoarse =
-    kFewBalls + kFewBalls / 8; ///< as many more as a coarse object gets
+/// The finest level gets so many more on a coarse level of the pyramid: some are not needed on the object.
+constexpr int64_t moreOnCoarse(int64_t count) { return count / 8; }
+constexpr int64_t kFewOnCoarse = kFewBalls + moreOnCoarse(kFewBalls);
 
 struct LevelEffort {
     FitEffort fit; ///< of balls that are placed anew

@@ -87,12 +87,15 @@ double LevelWork::fromTop(int64_t count, Quality quality) const
 double LevelWork::ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality,
     const std::vector<int64_t>& finer) const
 {
-    double work = ofFreeCover(leafBalls, counts.front());
-    if (counts.front() > kFewOnCoarse) {
-        work += ofSearches(counts.front()) + fromBottom(counts);
+    double work = 0;
+    if (counts.front() > kFewBalls) {
+        work += ofFreeCover(leafBalls, counts.front()) + ofSearches(counts.front());
+        work += fromBottom(counts);
     } else {
         for (const Quality each : {Quality::Fast, Quality::Normal, Quality::Best}) { // FewLevels.h
             if (each > quality) continue;
+            const LevelMaker maker = mMaker.ofQuality(each, std::size_t(leafBalls));
+            work += LevelWork(maker, std::size_t(mLeaves)).ofFreeCover(leafBalls, counts.front());
             for (const int64_t count : counts) work += fromTop(count, each);
         }
     }

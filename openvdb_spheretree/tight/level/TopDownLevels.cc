@@ -41,19 +41,22 @@ public:
     }
 
     /// @return levels of these counts. None costs more than its given one, if levels are given.
-    std::vector<TightLevel> levels(
+    std::vector<TightLevel> make(
         const std::vector<int64_t>& counts, const std::vector<TightLevel>& given)
     {
         std::vector<TightLevel> levels(counts.size());
+        mIsBelowGiven = !given.empty(); // above the coarsest, there is nothing
         for (std::size_t k = counts.size(); k-- > 0;) {
-            const Found known = given.empty() ? Found() : foundOf(given[k]);
-            Found level = found(counts[k], {});
-            if (known.cost < level.cost) {
-                startBelow(given, k + 1);
+            mGiven = given.empty() ? Found() : foundOf(given[k]);
+            Found level = nextLevel(counts[k]);
+            if (mGiven.cost < level.cost) {
                 std::copy(given.begin() + k + 1, given.end(), levels.begin() + k + 1);
-                level = found(counts[k], known);
+                startBelow(given, k + 1);
+                level = nextLevel(counts[k]);
             }
             levels[k] = goOn(std::move(level));
+            mIsBelowGiven = mIsBelowGiven && levels[k].balls == given[k].balls
+                && levels[k].parent == given[k].parent;
         }
         return levels;
     }
@@ -61,12 +64,11 @@ public:
 private:
     static constexpr std::size_t kBlocks = 4096;
 
-    /// @return the balls of the next finer level.
-    /// @param start  balls in the groups of the level above, which are improved as well; or none
-    Found found(int64_t count, const Found& start) const
+    Found nextLevel(int64_t count) const
     {
         const Found fewer = mAbove.balls.empty() ? oneBall() : mFound;
-        Found best = fewer.cost > 0 && count > 1 ? searched(count, fewer.cost, start) : start;
+        Found best = mIsBelowGiven ? mGiven : Found();
+        if (fewer.cost > 0 && count > 1) best = better(best, searched(count, fewer.cost));
         if (fewer.cost <= best.cost) best = {eachInItsGroup(ballsOf(fewer.balls)), fewer.cost};
         return best;
     }
@@ -85,6 +87,7 @@ private:
     /// Goes on below the given levels, of which this is the finest, in place of its own.
     void startBelow(const std::vector<TightLevel>& given, std::size_t finest)
     {
+        mIsBelowGiven = true;
         mAbove = {};
         mRegions.clear();
         for (std::size_t k = given.size(); k-- > finest;) goOn(foundOf(given[k]));
@@ -108,7 +111,7 @@ private:
     }
 
     /// @param fewer  what fewer balls cost
-    Found searched(int64_t count, double fewer, const Found& start) const
+    Found searched(int64_t count, double fewer) const
     {
         constexpr double kStarts = 0.4, kSearch = 0.6; // of the work
         const double work = LevelWork(mMaker).fromTop(count, mQuality);
@@ -116,8 +119,8 @@ private:
         Found best = [&] {
             const detail::Step step(mMaker.interrupter, kStarts * work);
             const detail::Stage loops("", mMaker.interrupter, nullptr); // each is a detail
-            const Found own = bestStart(count, fewer);
-            return start.balls.empty() ? own : better(own, better(start, improved(start.balls, 0)));
+            const Found start = bestStart(count, fewer);
+            return mIsBelowGiven ? better(start, improved(mGiven.balls, 0)) : start;
         }();
         const detail::Step step(mMaker.interrupter, kSearch * work);
         if (best.balls.empty() || best.cost <= 0) return best;
@@ -156,6 +159,8 @@ private:
             starts.push_back(withCost(ungrouped(balls)));
         };
         add(mFree.cover(count));
+        const bool isGiven = !mIsBelowGiven && !mGiven.balls.empty();
+        if (isGiven && int64_t(mGiven.balls.size()) <= count) add(ballsOf(mGiven.balls));
         if (!mBlocks.empty()) {
             for (int seed = 0; seed < effort.seeds; ++seed) add(clusters(count, uint64_t(seed)));
             for (const int64_t times : effort.timesAsMany) add(mergedClusters(count, times));
@@ -240,6 +245,8 @@ private:
     TightLevel mAbove;                 ///< the level above; without balls at first
     Found mFound;                      ///< the same with its groups
     std::vector<VoxelRegion> mRegions; ///< chainRegions() of it
+    Found mGiven; ///< the given level of the same count; without balls if there is none
+    bool mIsBelowGiven = false; ///< the level above is the given one, so `mGiven` has its groups
 };
 
 } // namespace
@@ -251,7 +258,7 @@ std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCo
     for (const int64_t count : counts) { // fewer balls come from more
         if (count > 1) free.cover(count);
     }
-    auto levels = TopDownLevels(free, withClusters, quality, maker).levels(counts, given);
+    auto levels = TopDownLevels(free, withClusters, quality, maker).make(counts, given);
     for (std::size_t k = 1; k < levels.size(); ++k) dropChildless(levels[k], levels[k - 1]);
     return levels;
 }

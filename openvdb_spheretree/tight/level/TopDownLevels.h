@@ -11,8 +11,9 @@
 ///    count within these, and placed anew until nothing changes. The coarsest level is bound to nothing.
 /// 3. The best of them is searched (CoverSearch.h) where time allows it.
 /// 4. A level that would cost more than the one above it, or than one ball, is a copy of that.
-/// 5. Other levels of as many balls may be given, such as those of less quality. One that would cost more than its given
-/// level, as it is bound to better ones above it, is made again: below the given ones, from the given one.
+/// 5. Other levels of as many balls may be given, such as those of less quality; their balls are starts as well. A level that
+/// still would cost more than its given one, as it is bound to better ones above it, is made again: below the given ones,
+/// which take the place of these, and from the given one.
 ///
 /// Cost: by the balls that are asked for, and passes over the voxels; not by leaf balls. Costs are
 /// counted on samples.
@@ -30,12 +31,12 @@
 
 namespace openvdb_spheretree::tight {
 
-/// @param counts        of balls, finest first, falling; at most kFewOnCoarse
+/// @param counts        of balls, finest first, falling; at most kFewOnCoarse of them
 /// @param free          of the same object
 /// @param withClusters  try balls around clusters, too
 /// @param quality       how many starts there are, and how long the best is searched
 /// @param given         levels of the same counts, or none
-/// @return the levels; none costs more than the given one.
+/// @return the levels. None costs more than the given one, counted on samples, before balls without a child are dropped.
 std::vector<TightLevel> topDownLevels(const std::vector<int64_t>& counts, FreeCovers& free,
     bool withClusters, Quality quality, const LevelMaker& maker,
     const std::vector<TightLevel>& given = {});

@@ -34,7 +34,7 @@ HalvedObject::HalvedObject(const SampleLevel& object, bool flat)
         mParentLeaf[leaf] = uint32_t(parent - sorted.begin());
         mCoarsener.add(object.mask(leaf), object.origin(leaf), *parent, masks[mParentLeaf[leaf]]);
     }
-    mHalved = SampledObject(SampleLevel(std::move(sorted), std::move(masks)));
+    mHalved = SampledObject(SampleLevel(std::move(sorted), std::move(masks)), flat);
 }
 
 VoxelRegion HalvedObject::regionOf(const VoxelRegion& fine) const

@@ -236,6 +236,40 @@ TEST(CostWindow, CountsVoxelsOutsideTheObject)
     }
 }
 
+/// What a disc costs is its area: a ball of the same radius holds the more voxels of other z, the larger it is.
+TEST(CostWindow, OfAFlatObjectCountsItsPlaneAlone)
+{
+    Random random(9);
+    for (const int z : {-3, 0, 8, 21}) {
+        Voxels voxels;
+        for (const Coord& v : shapes::noise(Coord(20, 20, 1), 0.5, random)) {
+            voxels.emplace_back(v[0], v[1], z);
+        }
+        sortVoxels(voxels);
+        const SampledObject object(openvdb_spheretree::LeafLayout(*maskOf(voxels)), true);
+        const ExactSphere disc{{16 * 9 + 3, 16 * 8 - 5, 16 * z}, 150 * 150};
+        int64_t outside = 0;
+        for (int x = -10; x < 30; ++x) {
+            for (int y = -10; y < 30; ++y) {
+                const int64_t dx = 16 * x - disc.center[0], dy = 16 * y - disc.center[1];
+                const bool isHeld = dx * dx + dy * dy <= disc.radiusSq;
+                outside += isHeld && !contains(voxels, Coord(x, y, z));
+            }
+        }
+        FineBox box;
+        box.expand(disc);
+        CostWindow window;
+        window.reset(object, box, 0);
+        EXPECT_EQ(window.count(window.toLocal(disc)), outside) << "z = " << z;
+        EXPECT_EQ(window.voxelsPerSample(), 1);
+        window.reset(object, box, 1);
+        EXPECT_EQ(window.voxelsPerSample(), 4);
+        const int64_t samples = window.count(window.toLocal(disc));
+        EXPECT_GT(4 * samples, outside / 2);
+        EXPECT_LT(4 * samples, 2 * outside);
+    }
+}
+
 /// Above level 0, centers are rounded to 1/16 sample and squared radii down.
 TEST(CostWindow, RoundsBallsToItsSamples)
 {

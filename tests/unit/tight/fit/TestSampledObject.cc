@@ -42,6 +42,32 @@ TEST(SampledObject, HasEverySecondSampleOnTheNextLevel)
     }
 }
 
+/// An odd z would be on no other level.
+TEST(SampledObject, OfAFlatObjectKeepsItsPlane)
+{
+    Random random(4);
+    for (const int z : {-5, -1, 0, 3, 8, 23}) {
+        Voxels expected;
+        for (const Coord& v : shapes::noise(Coord(40, 30, 1), 0.4, random)) {
+            expected.emplace_back(v[0] - 9, v[1] - 4, z);
+        }
+        sortVoxels(expected);
+        const SampledObject object(openvdb_spheretree::LeafLayout(*maskOf(expected)), true);
+        for (int k = 0; k < object.levels(); ++k) {
+            ASSERT_EQ(samplesOf(object.level(k)), expected) << "z = " << z << ", level " << k;
+            ASSERT_EQ(object.plane(k), z >> k);
+            Voxels next;
+            for (const Coord& v : expected) {
+                const bool even = v[0] % 2 == 0 && v[1] % 2 == 0;
+                if (even) next.emplace_back(v[0] / 2, v[1] / 2, v[2] >> 1);
+            }
+            expected = next;
+        }
+        EXPECT_FALSE(
+            sampled(voxelsOf(object.level(0).mask(0), object.level(0).origin(0))).plane(0));
+    }
+}
+
 TEST(SampledObject, OfTheOriginHasItOnEveryLevel)
 {
     const SampledObject object = sampled({Coord(0, 0, 0)});
