@@ -79,6 +79,7 @@ double LevelWork::fromBottom(const std::vector<int64_t>& counts) const
 
 double LevelWork::fromTop(int64_t count, Quality quality) const
 {
+    if (count == 1) return ofPlacing(1); // one ball is one fit
     if (quality == Quality::Fast) return 0.01 + 0.002 * double(count);
     if (quality == Quality::Best) return 0.9 + 0.075 * double(count);
     return 0.3 + 0.012 * double(count);
