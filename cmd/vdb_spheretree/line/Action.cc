@@ -9,13 +9,13 @@
 #include <openvdb_spheretree/base/Text.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 namespace command {
 
+using openvdb_spheretree::detail::lowerCase;
 using openvdb_spheretree::detail::parseNumber;
 
 namespace {
@@ -87,9 +87,7 @@ bool isAllowed(const OptionSpec& option, const std::string& value)
         return number && inRange(*number);
     }
     case OptionKind::Vector: return parseVector(value).has_value();
-    case OptionKind::Choice:
-        return std::find(option.choices.begin(), option.choices.end(), value)
-            != option.choices.end();
+    case OptionKind::Choice: return option.hasChoice(value);
     default: return true;
     }
 }
@@ -314,10 +312,8 @@ void checkValue(const OptionSpec& option, const std::string& value)
         throwUsage("an item of " + option.name + "=" + value + " is empty");
     }
     if (option.kind == OptionKind::Choice && !isAllowed(option, value)) {
-        std::string lower;
-        for (const char c : value) lower += char(std::tolower(static_cast<unsigned char>(c)));
         throwUsage(option.name + "=" + value + " is unknown: it takes " + allowedText(option)
-            + didYouMean(lower, option.choices));
+            + didYouMean(lowerCase(value), option.choices));
     }
     if (!isAllowed(option, value)) {
         const std::string number = value.substr(0, value.size() - 1);

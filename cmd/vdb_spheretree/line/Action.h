@@ -10,6 +10,7 @@
 #include "base/Errors.h"
 #include "base/ProgressShare.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -52,6 +53,10 @@ struct OptionSpec {
     std::vector<std::string> choices = {};
     bool isPercent = false; ///< a number without a sign behind it
 
+    bool hasChoice(const std::string& choice) const
+    {
+        return std::find(choices.begin(), choices.end(), choice) != choices.end();
+    }
     /// @return whether @a prefix stands for it. A `name` takes two letters: n is a number to many; so do
     ///         `frames`: f was `files` before there were any.
     bool isMeantBy(const std::string& prefix) const;

@@ -91,17 +91,12 @@ void addOption(ActionCall& call, const std::string& token, size_t equals)
     call.give(option, value);
 }
 
-bool hasChoice(const OptionSpec& option, const std::string& choice)
-{
-    return std::find(option.choices.begin(), option.choices.end(), choice) != option.choices.end();
-}
-
 /// @return the options that have a choice of this name, each with it, as they would be typed.
 std::string optionsOfChoice(const ActionSpec& spec, const std::string& choice)
 {
     std::string all;
     for (const OptionSpec& option : spec.options) {
-        if (!hasChoice(option, choice)) continue;
+        if (!option.hasChoice(choice)) continue;
         all += (all.empty() ? "" : " or ") + option.name + "=" + choice;
     }
     return all;
@@ -126,7 +121,7 @@ void addMain(ActionCall& call, const std::string& token)
         throwUsage(
             call.label() + ": '" + token + "' is an option: give it a value, " + token + "=...");
     }
-    if (option.kind == OptionKind::Choice && !hasChoice(option, token)) {
+    if (option.kind == OptionKind::Choice && !option.hasChoice(token)) {
         const std::string meant = optionsOfChoice(spec, token);
         if (!meant.empty()) {
             throwUsage(call.label() + ": '" + token + "' is no " + option.name + " (did you mean "
