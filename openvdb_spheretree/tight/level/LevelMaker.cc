@@ -44,6 +44,13 @@ FitEffort LevelMaker::mergingTo(int64_t count) const
     return effort;
 }
 
+FitEffort LevelMaker::fitOf(int64_t balls) const
+{
+    FitEffort effort = fit;
+    effort.restarts = effort.restarts && balls <= kFewOnCoarse;
+    return effort;
+}
+
 int LevelMaker::searchesOf(int64_t balls) const
 {
     constexpr int64_t kBalls = 128;
@@ -65,7 +72,7 @@ std::vector<CoverBall> LevelMaker::improve(const std::vector<CoverBall>& start,
     best.balls = start;
     for (uint64_t number = 0; number < uint64_t(searchesOf(size)); ++number) {
         const detail::Step step(interrupter, LevelWork(*this).ofSearch(size));
-        const SearchEffort effort{fit, trialsOf(size), number << 40, flat, relocations};
+        const SearchEffort effort{fitOf(size), trialsOf(size), number << 40, flat, relocations};
         SearchedCover found = improveCover(start, finer, object, goal, effort, interrupter);
         if (found.change < best.change) best = std::move(found);
     }
@@ -76,7 +83,7 @@ std::vector<CoverBall> LevelMaker::placed(const std::vector<CoverBall>& cover,
     const CoverGoal& goal, bool drop, const std::vector<CoverBall>& spare) const
 {
     const detail::Step step(interrupter, LevelWork(*this).ofPlacing(int64_t(cover.size())));
-    SearchEffort effort{fit, 0, 0, flat};
+    SearchEffort effort{fitOf(int64_t(cover.size())), 0, 0, flat};
     effort.sweeps = sweeps;
     auto balls = improveCover(cover, spare, object, goal, effort, interrupter).balls;
     return drop ? withoutEmpty(std::move(balls)) : balls;

@@ -16,8 +16,6 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Starts already have their balls where they are needed.
-constexpr std::size_t kRelocations = 2;
 constexpr FitEffort kStartFit{false, 4, 1, false, 16}; // of starts: they are placed anew later
 
 /// The balls of a level with their groups, and what they cost.
@@ -197,8 +195,8 @@ private:
     {
         const VoxelGoal goal =
             mAbove.balls.empty() ? VoxelGoal(mVoxels) : VoxelGoal(mVoxels, mRegions);
-        const SearchEffort effort{
-            mMaker.fit, trialsPerBall, 0, mMaker.flat, kRelocations, mMaker.sweeps};
+        const SearchEffort effort{mMaker.fitOf(int64_t(balls.size())), trialsPerBall, 0,
+            mMaker.flat, mMaker.relocations, mMaker.sweeps};
         const auto spare = detail::timed("", mMaker.interrupter, nullptr, [&] {
             return trialsPerBall > 0 ? smallerThan(int64_t(balls.size()))
                                      : std::vector<CoverBall>();

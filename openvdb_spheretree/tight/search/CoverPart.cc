@@ -106,13 +106,15 @@ std::size_t PartFit::insert(CoverPart& part, const CoverBall& ball) const
     return part.ids.size() - 1;
 }
 
-void PartFit::replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const
+double PartFit::replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const
 {
     ExactSphere& ball = part.balls[i].ball;
     CoveringFit& fit = fitFor(part, i, std::vector<ExactSphere>{instead}, {ball});
-    part.change += fit.costOf({instead}) - fit.costOf({ball});
+    const double before = fit.costOf({ball});
+    part.change += fit.costOf({instead}) - before;
     ball = instead;
     part.placedFor[i] = 0;
+    return before;
 }
 
 void PartFit::refit(CoverPart& part, std::size_t i) const

@@ -111,7 +111,8 @@ public:
     /// Adds a new ball to the part. @return its index.
     std::size_t insert(CoverPart& part, const CoverBall& ball) const;
     /// Puts another ball in the place of ball @a i, whether it holds the voxels or not.
-    void replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const;
+    /// @return what ball @a i has cost.
+    double replace(CoverPart& part, std::size_t i, const ExactSphere& instead) const;
 
     /// Places ball @a i anew for the voxels that only it holds, if that costs less. A ball that was
     /// last placed for the same voxels is left alone: one in a hundred of those would change.
