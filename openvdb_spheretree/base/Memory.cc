@@ -47,6 +47,8 @@ int64_t allowedMemory(int64_t memory)
 std::string asText(double bytes, bool up)
 {
     constexpr double kKiB = 1 << 10, kMiB = 1 << 20, kGiB = 1 << 30;
+    if (bytes < kKiB && !up)
+        return std::to_string(int64_t(bytes)) + (bytes < 2 ? " byte" : " bytes");
     double unit = kKiB;
     const char* name = " KiB";
     if (bytes >= kGiB) {
@@ -63,6 +65,13 @@ std::string asText(double bytes, bool up)
     return text.str();
 }
 
+std::string asMemoryOption(double bytes)
+{
+    std::string text = asText(bytes);
+    text.erase(text.find(' '), 1);
+    return "memory=" + text;
+}
+
 bool isAllowed(double bytes, int64_t memory)
 {
     if (memory > 0) return bytes <= double(memory);
@@ -75,8 +84,8 @@ void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed)
     if (needed <= allowed) return;
     const std::string what = "the object's " + std::to_string(leaves)
         + " leaf nodes, those inside its tiles included, need at least " + asText(double(needed))
-        + " for their power labels, and memory= allows " + asText(double(allowed), false)
-        + ": allow more, use a larger voxel, or split the object";
+        + " for their power labels, and memory= allows " + asText(double(allowed), false) + ": try "
+        + asMemoryOption(double(needed)) + ", use a larger voxel, or split the object";
     throw MemoryError(what, double(needed));
 }
 
@@ -95,8 +104,8 @@ void requireAllowed(
                 + " of this machine: " + remedy,
             bytes);
     }
-    throw MemoryError(needed + ", and memory= allows " + asText(double(memory), false)
-            + ": allow more, " + remedy,
+    throw MemoryError(needed + ", and memory= allows " + asText(double(memory), false) + ": try "
+            + asMemoryOption(bytes) + ", " + remedy,
         bytes);
 }
 

@@ -36,8 +36,11 @@ int64_t allowedMemory(int64_t memory);
 /// @return whether as much is no more than that, or nobody knows what the machine has.
 bool isAllowed(double bytes, int64_t memory);
 
-/// @return bytes for messages: as GiB, MiB or KiB with one decimal, rounded up (or down).
+/// @return bytes for messages: as GiB, MiB or KiB with one decimal, rounded up; or down, and then as bytes where they are fewer.
 std::string asText(double bytes, bool up = true);
+
+/// @return what to type so that as many bytes are allowed.
+std::string asMemoryOption(double bytes);
 
 /// @throw MemoryError if @a leaves leaf nodes need more for their labels than is allowed
 void requireAllowed(int64_t leaves, int64_t needed, int64_t allowed);

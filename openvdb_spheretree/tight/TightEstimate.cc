@@ -137,12 +137,11 @@ void refuseTightTree(
     const auto ofLabels = double(slab::LabelStream(layout, settings.dim).enoughBytes());
     const double needed = std::max({estimate.bytes, ofLabels, atLeast});
     const bool fewerHelp = needed == estimate.bytes && !settings.tight().budget.hasBound();
-    std::string enough = detail::asText(needed);
-    const std::string what = "a tight tree of this object needs about " + enough
+    const std::string what = "a tight tree of this object needs about " + detail::asText(needed)
         + ", and memory= allows "
         + detail::asText(double(detail::allowedMemory(settings.memory)), false);
-    enough.erase(enough.find(' '), 1); // as it is typed
-    throw detail::MemoryError(what + ": try memory=" + enough + ", use a larger voxel, or "
+    throw detail::MemoryError(what + ": try " + detail::asMemoryOption(needed)
+            + ", use a larger voxel, or "
             + (fewerHelp ? "ask for fewer spheres (spheres=)" : "split the object"),
         needed);
 }

@@ -129,8 +129,8 @@ std::vector<int64_t> countsFromString(const std::string& text)
         if (parsed.ec != std::errc() || (!last && *parsed.ptr != ',')) {
             OPENVDB_THROW(openvdb::ValueError,
                 "spheres=" << detail::inQuotes(text)
-                           << " is no list of counts: write numbers of 1 or more with commas "
-                              "between them, such as 8,64,512");
+                           << " is no list of counts: write numbers of 1 or more in digits, with "
+                              "commas between them, such as 8,64,512");
         }
         requireCount(count);
         counts.push_back(count);

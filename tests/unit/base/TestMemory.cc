@@ -36,4 +36,17 @@ TEST(Memory, OfLeafNodesIsThatOfAllOfThem)
             std::to_string(leaves) + " leaf nodes"));
 }
 
+TEST(Memory, IsNamedInBytesWhereItIsLittleAndAsItIsTyped)
+{
+    EXPECT_EQ(detail::asText(1, false), "1 byte");
+    EXPECT_EQ(detail::asText(1023, false), "1023 bytes");
+    EXPECT_EQ(detail::asText(1024, false), "1 KiB");
+    EXPECT_EQ(detail::asMemoryOption(1), "memory=0.1KiB");
+    EXPECT_EQ(detail::asMemoryOption(4.42 * (1 << 20)), "memory=4.5MiB");
+    const std::string why = messageOf<openvdb::ValueError>(
+        [] { detail::requireAllowed(3 << 20, 1 << 10, "spheres", "use fewer"); });
+    EXPECT_TRUE(mentions(
+        why, "spheres need about 3 MiB, and memory= allows 1 KiB: try memory=3MiB, use fewer"));
+}
+
 } // namespace

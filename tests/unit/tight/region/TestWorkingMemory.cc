@@ -113,7 +113,8 @@ TEST(WorkingMemory, AddsUpAndIsRefusedWithBothNumbers)
     const std::string why =
         messageOf<openvdb::ValueError>([&] { some.require(1 << 20, "some things"); });
     EXPECT_TRUE(mentions(why, "some things need about 14.")) << why;
-    EXPECT_TRUE(mentions(why, "memory= allows 1 MiB: allow more, use a larger voxel")) << why;
+    EXPECT_TRUE(mentions(why, "memory= allows 1 MiB: try memory=14.")) << why;
+    EXPECT_TRUE(mentions(why, "MiB, use a larger voxel")) << why;
     some.bytes = 1e18;
     EXPECT_THROW(some.require(0, "things"), openvdb::ValueError);
 }
