@@ -33,8 +33,8 @@ std::size_t leafNodesOf(const CoarseObject& coarse, std::size_t level)
 /// @param ofVoxels  how many there are for each voxel
 double growthOf(Leaves leaves, double ofVoxels)
 {
-    // Medial balls of solids lie in sheets, and the finer the voxels, the more of them are not needed. Where they are most
-    // voxels, the object is a sheet itself.
+    // Medial balls of solids lie in sheets, and the finer the voxels, the more of them are not
+    // needed. Where they are most voxels, the object is a sheet itself.
     constexpr double kPruned = 3.5, kMedial = 4.5, kOfSheets = 4, kMost = 0.5;
     if (leaves == Leaves::Medial) return kMedial;
     return ofVoxels > kMost ? kOfSheets : kPruned;
@@ -55,9 +55,9 @@ GuessedObject guessedObject(const CoarseObject& coarse, const TightOptions& opti
     return guess;
 }
 
-/// The regions of all leaf balls, as if each were one of a coarse level, as many times as large. In thin or scattered
-/// objects most of such a ball is empty: there, a leaf node is in as many of them as on the coarse level, times the
-/// ratio of their numbers.
+/// The regions of all leaf balls, as if each were one of a coarse level, as many times as large. In
+/// thin or scattered objects most of such a ball is empty: there, a leaf node is in as many of them
+/// as on the coarse level, times the ratio of their numbers.
 double bytesOfLeafRegions(const CoarseObject& coarse, const GuessedObject& guess,
     openvdb::util::NullInterrupter* interrupter)
 {

@@ -11,8 +11,9 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Guessed from the leaf balls of a coarse level of the pyramid, of which each finer level has about 3.5 times as
-/// many: medial axes of solids are sheets. Sheets have 4 times as many. Right within a factor of three.
+/// Guessed from the leaf balls of a coarse level of the pyramid, of which each finer level has
+/// about 3.5 times as many: medial axes of solids are sheets. Sheets have 4 times as many. Right
+/// within a factor of three.
 struct TightEstimate {
     double leafBalls = 0;  ///< that levels are made from
     double seconds = 0;    ///< of one processor
@@ -22,14 +23,15 @@ struct TightEstimate {
 };
 
 /// @param voxels  flat objects are flat along z
-/// @note Cost: the pyramid, and the leaf balls of coarse levels of up to some million voxels, which take no heed of
-/// SphereTreeSettings::memory.
+/// @note Cost: the pyramid, and the leaf balls of coarse levels of up to some million voxels, which
+/// take no heed of SphereTreeSettings::memory.
 TightEstimate estimateTightTree(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter);
 
 /// @param settings  whose memory is too little
 /// @param atLeast   bytes that are known to be needed
-/// @throw detail::MemoryError with what the tree needs at its peak, about: that of its labels, or of its levels
+/// @throw detail::MemoryError with what the tree needs at its peak, about: that of its labels, or
+/// of its levels
 [[noreturn]] void refuseTightTree(
     const TightEstimate& estimate, const SphereTreeSettings& settings, double atLeast);
 

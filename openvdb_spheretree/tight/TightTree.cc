@@ -32,8 +32,8 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @throw detail::MemoryError with what all of the tree needs, if leastAllowed() is more than is allowed, or what labels of
-/// a level of the pyramid need
+/// @throw detail::MemoryError with what all of the tree needs, if leastAllowed() is more than is
+/// allowed, or what labels of a level of the pyramid need
 CoarseObject coarseObjectWithin(const openvdb::MaskTree::ConstPtr& voxels,
     const SphereTreeSettings& settings, openvdb::util::NullInterrupter* interrupter,
     StageSeconds* seconds)
@@ -50,7 +50,8 @@ CoarseObject coarseObjectWithin(const openvdb::MaskTree::ConstPtr& voxels,
     refuseTightTree(estimateTightTree(voxels, settings, interrupter), settings, needed);
 }
 
-/// @throw detail::MemoryError if making levels from the leaf balls needs more memory than there may be
+/// @throw detail::MemoryError if making levels from the leaf balls needs more memory than there may
+/// be
 void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory,
     openvdb::util::NullInterrupter* interrupter)
 {
@@ -58,7 +59,7 @@ void requireRoom(const CoarseObject& coarse, bool withRegions, int64_t memory,
     const std::vector<ExactSphere>& leafBalls = coarse.leaves.balls;
     const std::size_t leafNodes = coarse.samples.level(0).leafCount();
     WorkingMemory needed;
-    needed.addSamples(leafNodes).addMerging(leafBalls.size());
+    needed.addSamples(leafNodes, coarse.samples.dim()).addMerging(leafBalls.size());
     if (withRegions) needed.addRegions(leafBalls, coarse.samples.level(0), interrupter);
     needed.require(memory,
         "the regions and neighbours of " + std::to_string(leafBalls.size()) + " leaf balls");

@@ -2,10 +2,10 @@
 /// @file Lloyd.h
 /// @brief k-means: weighted points in clusters around centers.
 ///
-/// S. Lloyd, "Least squares quantization in PCM", 1982. The first centers are far apart: each is a point,
-/// drawn with a chance that goes as its weight times its squared distance to the nearest one so far
-/// (D. Arthur and S. Vassilvitskii, "k-means++", 2007); with seed 0 it is always the farthest one
-/// (T. Gonzalez 1985).
+/// S. Lloyd, "Least squares quantization in PCM", 1982. The first centers are far apart: each is a
+/// point, drawn with a chance that goes as its weight times its squared distance to the nearest one
+/// so far (D. Arthur and S. Vassilvitskii, "k-means++", 2007); with seed 0 it is always the
+/// farthest one (T. Gonzalez 1985).
 /// 1. Every point goes to the nearest center; of equal ones, to the first.
 /// 2. Every center goes to the middle of its points. One without points goes to the point that is
 ///    farthest from its own center.

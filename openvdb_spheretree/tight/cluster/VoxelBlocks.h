@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file VoxelBlocks.h
-/// @brief The object as a few thousand weighted points: the voxels of each block of 2^k voxels a side, k
-/// as small as a bound on their number allows.
+/// @brief The object as a few thousand weighted points: the voxels of each block of 2^k voxels a
+/// side, k as small as a bound on their number allows.
 ///
-/// Each block with a voxel becomes one point, in the middle of its voxels, and as heavy as they are many.
-/// So thin parts stay, whatever the blocks' size.
-/// Cost: one pass over the voxels.
+/// Each block with a voxel becomes one point, in the middle of its voxels, and as heavy as they are
+/// many. So thin parts stay, whatever the blocks' size. Cost: one pass over the voxels.
 
 #pragma once
 

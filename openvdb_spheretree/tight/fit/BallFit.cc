@@ -108,8 +108,8 @@ LocalBall smallestBall(const PointCloud& points, bool flat)
         }
         center[a] = (lo + hi) / 2;
     }
-    // Badoiu and Clarkson, "Smaller core-sets for balls" (2003): towards the farthest point, by less
-    // and less.
+    // Badoiu and Clarkson, "Smaller core-sets for balls" (2003): towards the farthest point, by
+    // less and less.
     constexpr int kRounds = 30;
     for (int round = 1; round <= kRounds; ++round) {
         const auto far = points.farthest(center[0], center[1], center[2]);

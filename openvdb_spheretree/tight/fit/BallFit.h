@@ -3,9 +3,10 @@
 /// @brief A cheap ball that holds given points: a descent over its center.
 ///
 /// The center decides the radius, so there are three unknowns. The descent starts at the smallest
-/// enclosing ball and at given centers. It moves the center along the axes (and diagonals) as long as
-/// the cost falls, at first by a quarter of the radius, in the end by 1/16 of a sample. A candidate
-/// that contains the best ball so far cannot cost less, and is not counted. Nothing is random.
+/// enclosing ball and at given centers. It moves the center along the axes (and diagonals) as long
+/// as the cost falls, at first by a quarter of the radius, in the end by 1/16 of a sample. A
+/// candidate that contains the best ball so far cannot cost less, and is not counted. Nothing is
+/// random.
 
 #pragma once
 
@@ -44,8 +45,8 @@ struct FitEffort {
 BallFit fitBall(const PointCloud& points, const LocalBall& smallest, const CostRuns& costs,
     const std::vector<LocalBall>& starts, const FitEffort& effort, bool flat = false);
 
-/// @return a ball around all points with a center of integers. Its radius is that of the smallest one,
-/// up to about one unit or one percent.
+/// @return a ball around all points with a center of integers. Its radius is that of the smallest
+/// one, up to about one unit or one percent.
 LocalBall smallestBall(const PointCloud& points, bool flat = false);
 
 } // namespace openvdb_spheretree::tight

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BallRows.h
-/// @brief Counts, lists and clears the bits of a window that lie in a ball, row by row along z. The ends
-/// of the ball are found for several rows at once.
+/// @brief Counts, lists and clears the bits of a window that lie in a ball, row by row along z. The
+/// ends of the ball are found for several rows at once.
 ///
 /// A ball of squared radius r (in 1/16 sample) meets row (x, y) in the samples z with
 /// (16 z - cz)^2 <= r - dx^2 - dy^2: floor of a square root, exact in floats since r <= 2^20.

@@ -2,11 +2,11 @@
 /// @file CostRuns.h
 /// @brief Counts the samples that cost in balls near one place, from a list of runs.
 ///
-/// A run is consecutive samples along z. How many of its samples are in a ball follows from one square
-/// root, for several runs at once. The runs nearest to the place come first: a ball is likely to hold
-/// these, so one that is worse than the best so far is given up early. (Counting rows of bits,
-/// BallRows.h, takes a square root for each row of the ball, though most rows have nothing to count.
-/// A tight tree took three times as long.)
+/// A run is consecutive samples along z. How many of its samples are in a ball follows from one
+/// square root, for several runs at once. The runs nearest to the place come first: a ball is
+/// likely to hold these, so one that is worse than the best so far is given up early. (Counting
+/// rows of bits, BallRows.h, takes a square root for each row of the ball, though most rows have
+/// nothing to count. A tight tree took three times as long.)
 
 #pragma once
 
@@ -34,7 +34,8 @@ public:
 
     /// @return whether the ball lies in the place, so that it can be counted.
     bool fits(const LocalBall& ball) const { return reachSq(ball) <= mPlace.radiusSq; }
-    /// @return the samples in a ball that fits. If they are more than @a bound: any number above it.
+    /// @return the samples in a ball that fits. If they are more than @a bound: any number above
+    /// it.
     int64_t count(const LocalBall& ball, int64_t bound = INT64_MAX) const;
 
 private:

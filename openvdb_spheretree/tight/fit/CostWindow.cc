@@ -41,22 +41,29 @@ void CostWindow::reset(const SampledObject& object, const FineBox& box, int leve
     }
     mWords = (mSize[2] + 63) / 64;
     mSize[2] = 64 * mWords;
-    const std::optional<int32_t> plane = object.plane(level);
+    fill(object.plane(level), origin[2]);
+    clear(object.level(level), origin);
+}
+
+void CostWindow::fill(const std::optional<int32_t>& plane, int64_t originZ)
+{
     mDim = plane ? 2 : 3;
     mBits.assign(std::size_t(mSize[0]) * mSize[1] * mWords, plane ? 0 : ~uint64_t(0));
-    if (plane) {
-        const int64_t z = *plane - origin[2];
-        if (z < 0 || z >= mSize[2]) return;
-        for (std::size_t row = 0; row < mBits.size(); row += std::size_t(mWords)) {
-            mBits[row + std::size_t(z >> 6)] = uint64_t(1) << (z & 63);
-        }
+    if (!plane) return;
+    const int64_t z = *plane - originZ;
+    if (z < 0 || z >= mSize[2]) return;
+    for (std::size_t row = 0; row < mBits.size(); row += std::size_t(mWords)) {
+        mBits[row + std::size_t(z >> 6)] = uint64_t(1) << (z & 63);
     }
+}
+
+void CostWindow::clear(const SampleLevel& samples, const int64_t (&origin)[3])
+{
     openvdb::CoordBBox met; // of the window, where there can be samples
     for (int a = 0; a < 3; ++a) {
         met.min()[a] = toCoordinate(origin[a]);
         met.max()[a] = toCoordinate(origin[a] + mSize[a] - 1);
     }
-    const SampleLevel& samples = object.level(level);
     samples.forEachLeaf(met, [&](std::size_t leaf) {
         openvdb::Coord at;
         for (int a = 0; a < 3; ++a) at[a] = int32_t(samples.origin(leaf)[a] - origin[a]);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CostWindow.h
-/// @brief A small box of samples, with a bit for each sample that costs. These are outside the object
-/// and in no other ball of the cover. The cost of a ball is the number of bits in it.
+/// @brief A small box of samples, with a bit for each sample that costs. These are outside the
+/// object and in no other ball of the cover. The cost of a ball is the number of bits in it.
 ///
-/// A window is made for one decision, and only reads the object and the cover. So many decisions can
-/// be made in parallel. (Counts for all voxels outside, kept up to date, would take memory with the
-/// volume of the largest ball.)
+/// A window is made for one decision, and only reads the object and the cover. So many decisions
+/// can be made in parallel. (Counts for all voxels outside, kept up to date, would take memory with
+/// the volume of the largest ball.)
 ///
 /// Coordinates are relative to the window's origin, in 1/16 of a sample. At sample level 0 they are
-/// exact for balls that fit in the window. Above it, centers and radii are rounded, and a bit stands
-/// for 8^level voxels; in a flat object, of which only samples of its z cost, for 4^level.
+/// exact for balls that fit in the window. Above it, centers and radii are rounded, and a bit
+/// stands for 8^level voxels; in a flat object, of which only samples of its z cost, for 4^level.
 /// Cost: to fill, a byte for 8 samples; to count, a square root for each row and a word for 64
 /// samples.
 
@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace openvdb_spheretree::tight {
@@ -46,7 +47,8 @@ public:
     /// @return the finest level of samples that has no more than @a samples in @a radius.
     static int levelFor(double radius, int samples);
 
-    /// Starts anew: every sample of the box that is outside the object costs; of a flat one, where it has its z.
+    /// Starts anew: every sample of the box that is outside the object costs; of a flat one, where
+    /// it has its z.
     void reset(const SampledObject& object, const FineBox& box, int level);
     /// Clears the bits in @a ball: another ball of the cover.
     void cover(const ExactSphere& ball) { cover(toLocal(ball)); }
@@ -64,6 +66,11 @@ public:
     int64_t voxelsPerSample() const { return int64_t(1) << std::min(mDim * mLevel, 60); }
 
 private:
+    /// Every sample of the box costs; with a plane only those in it.
+    void fill(const std::optional<int32_t>& plane, int64_t originZ);
+    /// The object's samples cost nothing.
+    void clear(const SampleLevel& samples, const int64_t (&origin)[3]);
+
     int mLevel = 0;
     int mDim = 3;        ///< of the object
     double mToLocal = 1; ///< 2^-level

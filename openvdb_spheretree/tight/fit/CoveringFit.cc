@@ -18,8 +18,9 @@ int64_t radiusSqToHold(const ExactSphere& ball, const ExactSphere& held)
     int64_t apart = 0;
     for (int a = 0; a < 3; ++a) apart += detail::square(ball.center[a] - held.center[a]);
     if (held.radiusSq == 0) return apart;
-    // (sqrt(apart) + sqrt(radiusSq))^2, rounded up. Squared lengths are below 2^61 (requireRoomForFineSquares() in
-    // build/ObjectLimits.cc), so 4 times the product of two is below 2^124.
+    // (sqrt(apart) + sqrt(radiusSq))^2, rounded up. Squared lengths are below 2^61
+    // (requireRoomForFineSquares() in build/ObjectLimits.cc), so 4 times the product of two is
+    // below 2^124.
     const auto product = 4 * detail::Uint128(apart) * detail::Uint128(held.radiusSq);
     return apart + held.radiusSq + detail::ceilSqrtWide(product);
 }

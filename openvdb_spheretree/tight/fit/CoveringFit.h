@@ -28,7 +28,8 @@ int64_t radiusSqToHold(const ExactSphere& ball, const std::vector<openvdb::Coord
 /// Owns the window of what costs, and all lists: reused for many fits, it allocates once.
 class CoveringFit {
 public:
-    /// Opens the window around @a targets and @a replaced. All that is outside the object costs there.
+    /// Opens the window around @a targets and @a replaced. All that is outside the object costs
+    /// there.
     /// @param targets   voxels or balls that the new ball must hold; not empty
     /// @param replaced  balls whose place it takes
     /// @param samples   of a radius, at most: FitEffort
@@ -49,8 +50,8 @@ public:
 
     /// @return what the balls cost together, voxels.
     double costOf(const std::vector<ExactSphere>& balls);
-    /// @return the best ball found. It holds all targets, exactly. The centers of the replaced balls
-    /// are tried, too.
+    /// @return the best ball found. It holds all targets, exactly. The centers of the replaced
+    /// balls are tried, too.
     FittedBall best(const FitEffort& effort, bool flat);
 
 private:

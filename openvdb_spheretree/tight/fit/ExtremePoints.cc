@@ -11,9 +11,9 @@ namespace {
 
 using openvdb::Coord;
 
-/// Parallel slices. The number of a point's slice is a sum of its coordinates with the factors X, Y, Z, and
-/// its place there are the coordinates along the axes U and V. Of points in ascending order, those of a
-/// slice ascend by their places, too.
+/// Parallel slices. The number of a point's slice is a sum of its coordinates with the factors X,
+/// Y, Z, and its place there are the coordinates along the axes U and V. Of points in ascending
+/// order, those of a slice ascend by their places, too.
 template <int X, int Y, int Z, int U, int V>
 struct Slicing {
     static int64_t of(const Coord& p)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file OccupiedCells.h
-/// @brief Lists the occupied cells of a sparse grid in a box, in time that grows with those found: neither with the
-/// size of the box nor with the cells elsewhere.
+/// @brief Lists the occupied cells of a sparse grid in a box, in time that grows with those found:
+/// neither with the size of the box nor with the cells elsewhere.
 ///
-/// Cells are grouped by 4^3, groups again by 4^3, and so on: a walk starts where the box is few groups wide, and
-/// goes down into those that are occupied. Adding and removing take constant time, one look-up as a rule.
+/// Cells are grouped by 4^3, groups again by 4^3, and so on: a walk starts where the box is few
+/// groups wide, and goes down into those that are occupied. Adding and removing take constant time,
+/// one look-up as a rule.
 
 #pragma once
 
@@ -78,7 +79,8 @@ private:
         }
     }
 
-    /// Of each level: by their places the groups that are not empty, with the parts of theirs that are not.
+    /// Of each level: by their places the groups that are not empty, with the parts of theirs that
+    /// are not.
     std::array<std::unordered_map<openvdb::Coord, Parts, CoordHash>, kLevels> mGroups;
 };
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SampledObject.h
-/// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis.
+/// @brief The object at falling resolutions: level k holds every 2^k-th voxel along each axis (of a
+/// flat object along two).
 ///
 /// Balls are compared by how much they hold outside the object. The time to count voxels grows with
-/// the volume of a ball. Samples are chosen so that a radius has at most 16 to 40 of them (FitEffort):
-/// that bounds the time for a ball. They only decide which ball is chosen. What a ball has to cover is
-/// always every voxel.
+/// the volume of a ball. Samples are chosen so that a radius has at most 16 to 40 of them
+/// (FitEffort): that bounds the time for a ball. They only decide which ball is chosen. What a ball
+/// has to cover is always every voxel.
 ///
-/// These are samples and not an OR-pyramid, in which a thin sheet would be as thick as a coarse voxel.
-/// (The finest level may be of a coarser object: HalvedObject.h.)
-/// Memory: 72 bytes for each leaf of each level; solids have 1.15 times the object's leaves.
+/// These are samples and not an OR-pyramid, in which a thin sheet would be as thick as a coarse
+/// voxel. (The finest level may be of a coarser object: HalvedObject.h.) Memory: up to 80 bytes for
+/// each leaf of each level: a mask, an origin, and where a column begins. Solids have 1.15 times
+/// the object's leaves on all levels, flat objects 1.33 times.
 
 #pragma once
 
@@ -79,7 +81,9 @@ public:
         return mLevels[std::min(std::size_t(k), mLevels.size() - 1)];
     }
     int levels() const { return int(mLevels.size()); }
-    /// @return the z of a level's samples, if the object is flat. No level is without samples as its z is odd.
+    int dim() const { return mPlane ? 2 : 3; }
+    /// @return the z of a level's samples, if the object is flat: halved for each level and rounded
+    /// down, or an odd z would leave no samples.
     std::optional<int32_t> plane(int k) const
     {
         return mPlane ? std::optional<int32_t>(*mPlane >> k) : std::nullopt;

@@ -75,8 +75,8 @@ TightLevel parentLevel(TightLevel& finer, const Units& units,
 TightLevel placedParentLevel(TightLevel& finer, const std::vector<VoxelRegion>& regions,
     int64_t count, const LevelMaker& maker);
 
-/// As parentLevel(), but decided at half the resolution, or at less. Each ball then grows until it holds the units of
-/// its children.
+/// As parentLevel(), but decided at half the resolution, or at less. Each ball then grows until it
+/// holds the units of its children.
 TightLevel parentLevelOf(const HalvedObject& halved, TightLevel& finer, const Units& units,
     const std::vector<VoxelRegion>& regions, int64_t count, const LevelMaker& maker)
 {
@@ -104,8 +104,8 @@ TightLevel parentLevelOf(const HalvedObject& halved, TightLevel& finer, const Un
     return level;
 }
 
-/// @return whether balls of a level are large (kLeavesOfLargeBall), and there is much to decide: merging alone
-/// takes as long at any resolution.
+/// @return whether balls of a level are large (kLeavesOfLargeBall), and there is much to decide:
+/// merging alone takes as long at any resolution.
 bool areLargeAndSearched(int64_t count, const LevelMaker& maker)
 {
     return maker.searchesLevelOf(std::size_t(count))
@@ -138,7 +138,8 @@ void placeAbove(TightLevel& level, TightLevel& finer, const std::vector<VoxelReg
     dropChildless(level, finer);
 }
 
-/// Decides on a level, and places its balls anew. Recursion: as deep as the resolution can be halved.
+/// Decides on a level, and places its balls anew. Recursion: as deep as the resolution can be
+/// halved.
 TightLevel placedParentLevel(TightLevel& finer, const std::vector<VoxelRegion>& regions,
     int64_t count, const LevelMaker& maker)
 {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file BottomUpLevels.h
-/// @brief Levels above a finest one that is given: all leaf balls, or the fewest balls within a bound.
+/// @brief Levels above a finest one that is given: all leaf balls, or the fewest balls within a
+/// bound.
 ///
-/// First the balls of a coarser level have to hold the power cells of the finer balls, each cell as a whole.
-/// Which ball holds which cell is free: balls are merged, and some levels searched (CoverSearch.h). The ball that a cell
-/// is deepest in becomes the parent of the finer ball. Of levels that are searched, children then move to other parents (ChildMoves.h);
-/// where balls are large, all that is decided at half the resolution or less (HalvedObject.h). Then parents are fixed.
-/// Now a ball must hold only those voxels of its children's regions that no other ball holds for children of its
-/// own, and is placed anew.
+/// First the balls of a coarser level have to hold the power cells of the finer balls, each cell as
+/// a whole. Which ball holds which cell is free: balls are merged, and some levels searched
+/// (CoverSearch.h). The ball that a cell is deepest in becomes the parent of the finer ball. Of
+/// levels that are searched, children then move to other parents (ChildMoves.h); where balls are
+/// large, all that is decided at half the resolution or less (HalvedObject.h). Then parents are
+/// fixed. Now a ball must hold only those voxels of its children's regions that no other ball holds
+/// for children of its own, and is placed anew.
 
 #pragma once
 

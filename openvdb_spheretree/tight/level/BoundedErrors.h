@@ -15,7 +15,8 @@
 namespace openvdb_spheretree::tight {
 
 /// @param level  has no parents
-/// @param tree   with settings, object and transform, and without nodes; a copy, to which the level is appended
+/// @param tree   with settings, object and transform, and without nodes; a copy, to which the level
+///               is appended
 /// @return those figures that the settings bound.
 BoundedError errorOf(const TightLevel& level, SphereTree tree, const detail::LevelMeter& meter,
     openvdb::util::NullInterrupter* interrupter);

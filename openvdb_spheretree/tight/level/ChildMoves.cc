@@ -102,8 +102,8 @@ private:
     struct Tried {
         Move move;
         CoverChange change;
-        /// It gained nothing, and its two balls are what they were. (Others near may have changed: so a gain
-        /// may be missed, but none is claimed.)
+        /// It gained nothing, and its two balls are what they were. (Others near may have changed:
+        /// so a gain may be missed, but none is claimed.)
         bool isKnown;
     };
 
@@ -130,7 +130,8 @@ private:
         return children;
     }
 
-    /// @return for each child the moves to parents that are near; those of the round before as they were.
+    /// @return for each child the moves to parents that are near; those of the round before as they
+    /// were.
     std::vector<Tried> nextMoves() const
     {
         constexpr std::size_t kParents = 3;
@@ -166,7 +167,8 @@ private:
         regions[move.from] = &less;
         regions[move.to] = &more;
         const VoxelGoal goal(mMaker.object.level(0), std::move(regions));
-        const PartFit fit(mCover, mMaker.object, goal, {mMaker.fit, 0, 0, mMaker.flat});
+        const SearchEffort effort{mMaker.fitOf(int64_t(mCover.size())), 0, 0, mMaker.flat};
+        const PartFit fit(mCover, mMaker.object, goal, effort);
         CoverPart part = fit.around({move.from, move.to});
         const std::size_t to = part.indexOf(move.to);
         const ExactSphere& child = mFiner.balls[move.child];

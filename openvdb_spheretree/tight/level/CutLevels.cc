@@ -50,9 +50,8 @@ std::vector<TightLevel> cutLevels(SphereTree& tree, const openvdb::BoolGrid& obj
     const auto model = modelFor(options, leaves, maker);
     const auto forest = [&] {
         const detail::Step step(maker.interrupter, 1);
-        constexpr int kNeighbours = 6, kMore = 8;
-        const bool isNormal = options.quality == Quality::Normal;
-        return mergeToRoots(*model, isNormal ? kMore : kNeighbours, maker.interrupter);
+        const int neighbours = options.quality == Quality::Fast ? 6 : 8;
+        return mergeToRoots(*model, neighbours, maker.interrupter);
     }();
     std::optional<detail::LevelMeter> meter;
     if (options.budget.hasBound()) meter.emplace(object, tree.settings.dist());

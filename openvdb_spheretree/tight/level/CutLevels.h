@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CutLevels.h
-/// @brief Levels that are cuts of one forest of merges (MergeForest.h): any number of spheres is a level, and a
-/// coarser one is a union of its nodes.
+/// @brief Levels that are cuts of one forest of merges (MergeForest.h): any number of spheres is a
+/// level, and a coarser one is a union of its nodes.
 
 #pragma once
 

@@ -2,10 +2,12 @@
 /// @file FewLevels.h
 /// @brief Levels of few balls, none of which costs more than with less quality.
 ///
-/// Levels of the next lower quality come first, and are given to those that are made from the top (TopDownLevels.h). More
-/// effort alone would not do: where it makes a coarse level better, the finer ones are bound to that, and may be worse.
+/// Levels of the next lower quality come first, and are given to those that are made from the top
+/// (TopDownLevels.h). More effort alone would not do: where it makes a coarse level better, the
+/// finer ones are bound to that, and may be worse.
 ///
-/// Cost: as of all qualities up to this one. The lower ones take less than a fourth of it. Costs are counted on samples.
+/// Cost: as of all qualities up to this one. The lower ones take less than a fourth of it. Costs
+/// are counted on samples.
 
 #pragma once
 

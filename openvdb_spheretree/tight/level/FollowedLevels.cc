@@ -62,7 +62,8 @@ bool areOfOneKind(const SphereTree& last, const SphereTree& tree)
         && std::abs(last.voxelSize() - tree.voxelSize()) <= kRounding * tree.voxelSize();
 }
 
-/// @return the levels of @a last where the object of @a tree is; none if they are not like those of the counts.
+/// @return the levels of @a last where the object of @a tree is; none if they are not like those of
+/// the counts.
 std::vector<TightLevel> movedLevels(const SphereTree& last, const SphereTree& tree,
     const std::vector<int64_t>& counts, const FlatAxis& flat)
 {
@@ -110,7 +111,8 @@ Chains chainsOf(const std::vector<TightLevel>& levels, const LevelMaker& maker)
 }
 
 /// @param bare  voxels without a chain
-/// @return the levels with balls grown until those have one: each goes to the ball that has to grow the least.
+/// @return the levels with balls grown until those have one: each goes to the ball that has to grow
+/// the least.
 std::vector<TightLevel> grownOver(
     const SampleLevel& bare, std::vector<TightLevel> levels, const LevelMaker& maker)
 {

@@ -47,8 +47,8 @@ std::vector<ExactSphere> FreeCovers::searched(int64_t count)
 FreeCovers::Next FreeCovers::next(
     int64_t many, int64_t count, bool isStart, const LevelMaker& maker)
 {
-    // Of the balls of the start, each holds little: they are merged at once to what is asked for, or to so many. Where
-    // they are placed on the way, half as many more come first.
+    // Of the balls of the start, each holds little: they are merged at once to what is asked for,
+    // or to so many. Where they are placed on the way, half as many more come first.
     constexpr int64_t kFirst = 512;
     const bool areMany = isStart && maker.dilatedFor(many, std::max(count, kFirst)) > 0;
     const bool isPlacedOnTheWay = maker.placesStart && !areMany;

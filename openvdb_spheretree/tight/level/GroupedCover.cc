@@ -25,7 +25,8 @@ int64_t voxelsIn(const VoxelRegion& region)
     return voxels;
 }
 
-/// @return the cell in parts, one for each group that gets one; the one with the largest part first.
+/// @return the cell in parts, one for each group that gets one; the one with the largest part
+/// first.
 std::vector<CellPart> partsOf(
     VoxelRegion cell, const std::vector<int32_t>& groups, const std::vector<VoxelRegion>& regions)
 {

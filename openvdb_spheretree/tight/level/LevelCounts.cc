@@ -33,7 +33,8 @@ public:
 
     bool isWithin(int64_t count)
     {
-        // Without padding, all leaf balls are the object itself, without any error; given ones need not be.
+        // Without padding, all leaf balls are the object itself, without any error; given ones need
+        // not be.
         const bool areObject = mSettings.tight().leaves != Leaves::Given;
         if (mBudget.bounds == BoundOf::Unpadded && count == mLeafBalls && areObject) return true;
         return tight::isWithin(mBudget, mVoxelSize, errorOf(count));

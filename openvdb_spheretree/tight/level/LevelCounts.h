@@ -35,12 +35,12 @@ void requireReachable(const SphereTreeSettings& settings, double voxelSize);
 /// @param settings   of a tight tree
 /// @param leafBalls  how many there are
 /// @param voxelSize  world units
-/// @return counts, finest first, falling. With a bound on the error, the first one is the smallest for
-/// which the bound was found to hold. Counts are doubled from 1 on until it holds, then halved between,
-/// and a few below are tried: fewer balls may have a smaller error. That of all leaf balls,
-/// too, need not be the smallest, where their padding counts.
-/// @throw openvdb::ValueError if the bound needs more balls than the budget allows, or none was found
-/// within it, with what was found
+/// @return counts, finest first, falling. With a bound on the error, the first one is the smallest
+/// for which the bound was found to hold. Counts are doubled from 1 on until it holds, then halved
+/// between, and a few below are tried: fewer balls may have a smaller error. That of all leaf
+/// balls, too, need not be the smallest, where their padding counts.
+/// @throw openvdb::ValueError if the bound needs more balls than the budget allows, or none was
+/// found within it, with what was found
 std::vector<int64_t> levelCounts(const SphereTreeSettings& settings, int64_t leafBalls,
     double voxelSize, const ErrorOfCut& errorOf);
 

@@ -28,7 +28,7 @@ LevelEffort effortOf(Quality quality, std::size_t leafBalls)
         std::max(kLeast, std::min(kMost, kMost * std::sqrt(kFew / double(leafBalls))));
     effort.fit = {true, 12, 1, false, int(samples)};
     effort.merging.samples = int(samples);
-    effort.searchedUpTo = kFewOnCoarse;
+    effort.searchedUpTo = kFewBalls;
     if (quality == Quality::Best) {
         effort.fit.restarts = true;
         effort.relocations = 6;

@@ -144,7 +144,9 @@ std::vector<CoverBall> LevelMaker::mergedWithSlack(
 WorkingMemory LevelMaker::regionMemory(const std::vector<ExactSphere>& balls) const
 {
     const SampleLevel& voxels = object.level(0);
-    return WorkingMemory().addSamples(voxels.leafCount()).addRegions(balls, voxels, interrupter);
+    return WorkingMemory()
+        .addSamples(voxels.leafCount(), object.dim())
+        .addRegions(balls, voxels, interrupter);
 }
 
 void LevelMaker::requireRoomForRegions(const std::vector<ExactSphere>& balls) const

@@ -44,15 +44,15 @@ struct LevelMaker : LevelEffort {
         return {effortOf(quality, leafBalls), object, flat, interrupter, memory};
     }
 
-    /// @return `merging`; with diagonals where few balls are left: of dragon-512 64 have 72 in place of 77 % with
-    /// `fast`.
+    /// @return `merging`; with diagonals where few balls are left: of dragon-512 64 have 72 in
+    /// place of 77 % with `fast`.
     FitEffort mergingTo(int64_t count) const;
-    /// @return `fit`; each ball descends from its best start alone where there are many. With 512 balls `best` has 4 % less
-    /// error so, and takes 0.9 of the time; with few, other starts gain 1 %.
+    /// @return `fit`, without restarts where there are many balls: with 512, `best` has 4 % less
+    /// error then, in 0.9 of the time; with few, restarts gain 1 %.
     FitEffort fitOf(int64_t balls) const;
     bool searchesLevelOf(std::size_t balls) const { return int64_t(balls) <= searchedUpTo; }
-    /// @return how many searches a level gets. More trials of one search gain little; but searches of few
-    /// balls end in different places, and take little time.
+    /// @return how many searches a level gets. More trials of one search gain little; but searches
+    /// of few balls end in different places, and take little time.
     int searchesOf(int64_t balls) const;
     /// @return how many trials a ball gets in each.
     int trialsOf(int64_t balls) const;
@@ -60,21 +60,22 @@ struct LevelMaker : LevelEffort {
     /// @return the level after the best of several searches.
     std::vector<CoverBall> improve(const std::vector<CoverBall>& start,
         const std::vector<CoverBall>& finer, const CoverGoal& goal) const;
-    /// @return the cover with each ball placed anew until nothing changes, or `sweeps` times; without those that no
-    /// voxel needs if @a drop is given.
-    /// @param spare  a cover, too: empty balls, and those that no voxel needs, move to places of these where
-    ///               that gains something
+    /// @return the cover with each ball placed anew until nothing changes, or `sweeps` times;
+    /// without those that no voxel needs if @a drop is given.
+    /// @param spare  a cover, too: empty balls, and those that no voxel needs, move to places of
+    ///               these where that gains something
     std::vector<CoverBall> placed(const std::vector<CoverBall>& cover, const CoverGoal& goal,
         bool drop = true, const std::vector<CoverBall>& spare = {}) const;
-    /// The same with few sweeps, for balls that will be merged further: what more sweeps gain is lost then.
+    /// The same with few sweeps, for balls that will be merged further: what more sweeps gain is
+    /// lost then.
     std::vector<CoverBall> placedBetween(
         const std::vector<CoverBall>& cover, const CoverGoal& goal) const;
-    /// @return to about how many balls @a leafBalls are dilated and pruned before they are merged to @a count; 0: they
-    /// are merged as they are, as there are not many more.
+    /// @return to about how many balls @a leafBalls are dilated and pruned before they are merged
+    /// to @a count; 0: they are merged as they are, as there are not many more.
     int64_t dilatedFor(int64_t leafBalls, int64_t count) const;
     /// @param points  that each ball has to hold; if there are none, it stays
-    /// @return the balls that hold the points with the least cost that is found, each by itself; counted on samples, none
-    /// costs more than before.
+    /// @return the balls that hold the points with the least cost that is found, each by itself;
+    /// counted on samples, none costs more than before.
     std::vector<ExactSphere> fitted(
         const std::vector<ExactSphere>& balls, const HeldPoints& points) const;
     /// @param balls      balls of different groups never merge
@@ -105,13 +106,13 @@ struct LevelMaker : LevelEffort {
 LevelMaker levelMakerFor(const SphereTreeSettings& settings, const SampledObject& object,
     std::size_t leafBalls, detail::StepProgress* interrupter);
 
-/// A ball is large if the object has more leaf nodes than that for each: half the resolution is enough to decide
-/// what hangs below it. (dragon-512, 64 balls: 66.2 in place of 65.5 %, in two thirds of the tree's time; with half
-/// as many 68.0.)
+/// A ball is large if the object has more leaf nodes than that for each: half the resolution is
+/// enough to decide what hangs below it. (dragon-512, 64 balls: 66.2 in place of 65.5 %, in two
+/// thirds of the tree's time; with half as many 68.0.)
 constexpr std::size_t kLeavesOfLargeBall = 64;
 
-/// @return how many balls come next on the way from @a many to @a count, fewer: in equal ratios of at
-/// most two. Merging and placing anew by turns (FreeCovers.h) goes in such steps.
+/// @return how many balls come next on the way from @a many to @a count, fewer: in equal ratios of
+/// at most two. Merging and placing anew by turns (FreeCovers.h) goes in such steps.
 int64_t halvedTowards(int64_t many, int64_t count);
 
 /// @return the cover without its empty balls.

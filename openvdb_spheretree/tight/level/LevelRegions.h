@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelRegions.h
-/// @brief The voxels of a level's balls that have a chain: up to the coarsest level, or down to the finest one.
+/// @brief The voxels of a level's balls that have a chain: up to the coarsest level, or down to the
+/// finest one.
 
 #pragma once
 
@@ -23,7 +24,8 @@ std::vector<VoxelRegion> chainRegions(
 std::vector<VoxelRegion> regionsBelow(const std::vector<VoxelRegion>& regions,
     const std::vector<int32_t>& parents, std::size_t count, const LevelMaker& maker);
 
-/// @return of each ball of a level those voxels of its children's regions that it holds; none of an empty ball.
+/// @return of each ball of a level those voxels of its children's regions that it holds; none of an
+/// empty ball.
 /// @param regions, parents  of the balls of the next finer level
 std::vector<VoxelRegion> heldBelow(const std::vector<ExactSphere>& balls,
     const std::vector<VoxelRegion>& regions, const std::vector<int32_t>& parents,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LevelWork.h
-/// @brief What the steps of making levels take, about: for progress, and for estimates before the work.
+/// @brief What the steps of making levels take, about: for progress, and for estimates before the
+/// work.
 
 #pragma once
 
@@ -13,8 +14,8 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Seconds of one thread of a machine of 2023, for objects of 10^4 to 10^7 voxels: right within a factor of
-/// three. That they are right compared with each other matters more.
+/// Seconds of one thread of a machine of 2023, for objects of 10^4 to 10^7 voxels: right within a
+/// factor of three. That they are right compared with each other matters more.
 class LevelWork {
 public:
     explicit LevelWork(const LevelMaker& maker)
@@ -34,7 +35,8 @@ public:
     double ofMoves(int64_t children) const;
     /// @}
 
-    /// @return the work for a cover of @a count balls that is bound to nothing, made from @a start (FreeCovers.h).
+    /// @return the work for a cover of @a count balls that is bound to nothing, made from @a start
+    /// (FreeCovers.h).
     double ofFreeCover(int64_t start, int64_t count) const;
     /// @return that for all searches of a level.
     double ofSearches(int64_t balls) const;
@@ -43,7 +45,8 @@ public:
     /// @return that for one level of few balls (TopDownLevels.h).
     double fromTop(int64_t count, Quality quality) const;
     /// @return that for levels of named counts.
-    /// @param finer  leaf nodes of each level of the pyramid that they are carried to (CarriedLevels.h)
+    /// @param finer  leaf nodes of each level of the pyramid that they are carried to
+    ///               (CarriedLevels.h)
     double ofCounts(int64_t leafBalls, const std::vector<int64_t>& counts, Quality quality,
         const std::vector<int64_t>& finer) const;
 

@@ -25,7 +25,8 @@ void becomeCopy(TightLevel& level, const TightLevel& coarser, TightLevel* finer)
 }
 
 /// @param tree  as of errorOf()
-/// @return how many voxels a tree of this level alone covers; nothing if they are too many to be counted.
+/// @return how many voxels a tree of this level alone covers; nothing if they are too many to be
+/// counted.
 std::optional<int64_t> coveredBy(
     const TightLevel& level, SphereTree tree, openvdb::util::NullInterrupter* interrupter)
 {

@@ -15,8 +15,8 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Levels whose balls are large enough, and are placed anew from the finest up. A ball above that no voxel
-/// needs is empty, until all are placed.
+/// Levels whose balls are large enough, and are placed anew from the finest up. A ball above that
+/// no voxel needs is empty, until all are placed.
 class Placing {
 public:
     Placing(std::vector<TightLevel> levels, int64_t most, const LevelMaker& maker,

@@ -42,15 +42,15 @@ int32_t leastProtruding(const ExactSphere& ball, const std::vector<ExactSphere>&
 /// The same, but it looks only at those that are near.
 int32_t leastProtruding(
     const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid);
-/// @return the one of those of @a level that are nearest. For balls that no chain needs: it does not matter
-/// which, and levels may be large.
+/// @return the one of those of @a level that are nearest. For balls that no chain needs: it does
+/// not matter which, and levels may be large.
 int32_t anyNear(
     const ExactSphere& ball, const std::vector<ExactSphere>& level, const BallGrid& grid);
 
 /// @param counts     finest first, falling, none above the number of leaf balls
 /// @param digital    the first nodes of the forest as digital balls; empty if they are none
-/// @return a level for each count. A node's parent is its ancestor in the coarser cut. A node without
-/// one, which no voxel needs there, gets the ball out of which it reaches least.
+/// @return a level for each count. A node's parent is its ancestor in the coarser cut. A node
+/// without one, which no voxel needs there, gets the ball out of which it reaches least.
 std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
     const std::vector<int64_t>& counts, const std::vector<MedialBall>& digital);
 
@@ -58,7 +58,8 @@ std::vector<TightLevel> levelsOf(const std::vector<ForestNode>& forest,
 /// @param levels  finest first; flat objects are flat along z
 void appendLevels(const std::vector<TightLevel>& levels, SphereTree& tree);
 
-/// @return the levels that were appended to @a tree. Balls of the finest level are not known as digital ones.
+/// @return the levels that were appended to @a tree. Balls of the finest level are not known as
+/// digital ones.
 std::vector<TightLevel> levelsOf(const SphereTree& tree);
 
 /// @return the forest as cuts of a SphereTree, without stored radii.

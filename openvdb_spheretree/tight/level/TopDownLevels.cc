@@ -77,6 +77,7 @@ private:
         const bool isFirst = mAbove.balls.empty();
         mAbove = {
             ballsOf(level.balls), isFirst ? std::vector<int32_t>() : groupsOf(level.balls), {}};
+        mMaker.requireRoomForRegions(mAbove.balls);
         mRegions = chainRegions(mAbove, mRegions, mMaker);
         mFound = std::move(level);
         return mAbove;
@@ -130,8 +131,8 @@ private:
     /// @return the start that is cheapest after it was placed anew.
     Found bestStart(int64_t count, double fewer) const
     {
-        // Of an object like a ball many clusters cost many times what one ball costs, as each must hold
-        // corners of its own; few of them may still be better.
+        // Of an object like a ball many clusters cost many times what one ball costs, as each must
+        // hold corners of its own; few of them may still be better.
         constexpr double kHopeless = 4;
         constexpr int64_t kFewer = 8, kFewest = 2;
         const TopDownEffort effort = topDownEffort(mQuality, count, mVoxels.leafCount());
@@ -244,7 +245,9 @@ private:
     Found mFound;                      ///< the same with its groups
     std::vector<VoxelRegion> mRegions; ///< chainRegions() of it
     Found mGiven; ///< the given level of the same count; without balls if there is none
-    bool mIsBelowGiven = false; ///< the level above is the given one, so `mGiven` has its groups
+    /// The level above is the given one, so that `mGiven` has its groups; for the coarsest: there
+    /// are given ones.
+    bool mIsBelowGiven = false;
 };
 
 } // namespace

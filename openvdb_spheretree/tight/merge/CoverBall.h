@@ -2,9 +2,9 @@
 /// @file CoverBall.h
 /// @brief A ball of a level that is being made, and the group it is in.
 ///
-/// A level below a finished one has a group for each ball of the finished level: its children. A voxel
-/// in a ball counts only if the ancestors of the ball's group hold it, too (GroupedCover.h). All balls of
-/// other levels are in group 0.
+/// A level below a finished one has a group for each ball of the finished level: its children. A
+/// voxel in a ball counts only if the ancestors of the ball's group hold it, too (GroupedCover.h).
+/// All balls of other levels are in group 0.
 
 #pragma once
 

@@ -185,7 +185,8 @@ private:
 
     // ---- Merges
 
-    /// Sets @a marks to this round at the living nodes near the two balls of a merge and the new one.
+    /// Sets @a marks to this round at the living nodes near the two balls of a merge and the new
+    /// one.
     void markAround(const MergeCandidate& c, double slack, std::vector<int32_t>& marks) const
     {
         const BallGrid& all = mGrids.size() > 1 ? mAllGroups : mGrids.front();

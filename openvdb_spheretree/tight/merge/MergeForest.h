@@ -5,14 +5,15 @@
 ///
 /// A model knows what a merge costs (StrictMerging.h, SlackMerging.h). Here is the order of merges.
 /// 1. Pairs of near balls wait in a queue, the cheapest first.
-/// 2. A round takes the cheapest pairs, at most one for every 64 balls, and merges them in parallel.
-///    Where costs depend on other balls, no pair is near another one of the same round, so the cover stays valid.
-/// 3. There, a pair near a merge is evaluated again before it is taken. A cost may also fall unnoticed. So the
-///    queue is filled anew whenever the count has shrunk by 15 %, or by 30 % where costs do not depend
-///    on other balls.
+/// 2. A round takes the cheapest pairs, at most one for every 64 balls, and merges them in
+///    parallel. Where costs depend on other balls, no pair is near another one of the same round,
+///    so the cover stays valid.
+/// 3. There, a pair near a merge is evaluated again before it is taken. A cost may also fall
+///    unnoticed. So the queue is filled anew whenever the count has shrunk by 15 %, or by 30 %
+///    where costs do not depend on other balls.
 ///
-/// The result does not depend on threads: counts alone bound a round, and of equal costs the pair with
-/// the smaller node numbers is first.
+/// The result does not depend on threads: counts alone bound a round, and of equal costs the pair
+/// with the smaller node numbers is first.
 
 #pragma once
 
@@ -48,10 +49,12 @@ public:
     virtual int32_t groupOf(int32_t /*leafBall*/) const { return 0; }
     /// @return the merge of two nodes; thread-safe, changes nothing.
     virtual MergeCandidate evaluate(int32_t a, int32_t b) const = 0;
-    /// Enlarges the ball of a merge, just before that is done, if evaluate() made it too small; thread-safe.
+    /// Enlarges the ball of a merge, just before that is done, if evaluate() made it too small;
+    /// thread-safe.
     virtual void complete(MergeCandidate&) const {}
-    /// Does merges, no two of the same node: the i-th becomes node `node + i`. Where costs depend on other balls, none is
-    /// near another one. Pairs without a ball come in a call of their own and become no nodes.
+    /// Does merges, no two of the same node: the i-th becomes node `node + i`. Where costs depend
+    /// on other balls, none is near another one. Pairs without a ball come in a call of their own
+    /// and become no nodes.
     virtual void merge(const std::vector<MergeCandidate>& merges, int32_t node) = 0;
     /// @return whether what a merge costs depends on the balls around it.
     virtual bool dependsOnOthers() const = 0;

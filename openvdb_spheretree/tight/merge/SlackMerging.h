@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file SlackMerging.h
-/// @brief Merging with slack (cuts of quality=normal, and few balls below another level). A ball must hold only what no other ball of the
-/// cover holds. It costs the outside voxels in it that are in no other ball.
+/// @brief Merging with slack (cuts of quality=normal, and few balls below another level). A ball
+/// must hold only what no other ball of the cover holds. It costs the outside voxels in it that are
+/// in no other ball.
 ///
-/// Each node has a region of object voxels. The region of a leaf ball are the voxels in it. The region
-/// of a merged node are those voxels of its children's regions that its own ball holds. A new node must
-/// hold the voxels that are in its children's regions alone. These are often few: where balls overlap,
-/// voxels are in other regions, too.
+/// Each node has a region of object voxels. The region of a leaf ball are the voxels in it. The
+/// region of a merged node are those voxels of its children's regions that its own ball holds. A
+/// new node must hold the voxels that are in its children's regions alone. These are often few:
+/// where balls overlap, voxels are in other regions, too.
 ///
 /// Every cut is valid: the regions of its nodes cover the object, since a merge leaves no voxel
-/// without a region, and a node never changes later. Each voxel of a node's region is in the region of
-/// one of its children. So a chain of balls that hold it leads down to a leaf ball.
+/// without a region, and a node never changes later. Each voxel of a node's region is in the region
+/// of one of its children. So a chain of balls that hold it leads down to a leaf ball.
 
 #pragma once
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file StrictMerging.h
-/// @brief Plain merging. A ball holds all that the nodes below it hold. It costs the outside voxels in
-/// it, also those that are in other balls.
+/// @brief Plain merging. A ball holds all that the nodes below it hold. It costs the outside voxels
+/// in it, also those that are in other balls.
 ///
-/// A leaf ball holds the voxels of its power cell (PowerCells.h), or of a part of it. The chain of a
-/// voxel is the leaf ball whose cell it is in, and the balls above that. With cover=balls, a leaf ball
-/// holds itself.
+/// A leaf ball holds the voxels of its power cell (PowerCells.h), or of a part of it. The chain of
+/// a voxel is the leaf ball whose cell it is in, and the balls above that. With cover=balls, a leaf
+/// ball holds itself.
 ///
 /// What a merge costs depends on its two nodes alone, and is evaluated once.
 

@@ -29,8 +29,8 @@ std::vector<std::vector<LastHeld>> lastHeldOf(const std::vector<ExactSphere>& ba
     std::vector<int32_t> lastFirst(balls.size());
     std::iota(lastFirst.rbegin(), lastFirst.rend(), 0);
     const BallsInBox inBox(balls);
-    // Those after a ball that holds all of the box are no voxel's last. Nor are those that hold nothing there which one
-    // before them does not hold.
+    // Those after a ball that holds all of the box are no voxel's last. Nor are those that hold
+    // nothing there which one before them does not hold.
     const auto filter = [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,
                             std::vector<int32_t>& to) {
         StrongestBall strongest;

@@ -31,7 +31,8 @@ HWY_INLINE V nearestSqOf(D d, const BoxMiddle& box, V x, V y, V z)
     return hn::Add(hn::Mul(gapX, gapX), hn::Add(hn::Mul(gapY, gapY), hn::Mul(gapZ, gapZ)));
 }
 
-/// @return how much more power the strongest ball has than each of some others, where that is least in the box.
+/// @return how much more power the strongest ball has than each of some others, where that is least
+/// in the box.
 template <class D, class V = hn::VFromD<D>>
 HWY_INLINE V leastAhead(D d, const BallArrays& balls, const BoxMiddle& box,
     const StrongestBall& strongest, V x, V y, V z, V power)

@@ -2,13 +2,14 @@
 /// @file BallsInBox.h
 /// @brief Which of many balls matter in a box of voxels: what LeafDescent.h asks on its way down.
 ///
-/// A ball does not matter in a box that it does not meet, nor where another one has more power in all of the
-/// box: what the weaker one holds there, the stronger one holds as well. Powers are compared with the ball that has
-/// the most in the middle of the box. A difference of two powers is linear, so along each axis it is smallest at
-/// one of the ends.
+/// A ball does not matter in a box that it does not meet, nor where another one has more power in
+/// all of the box: what the weaker one holds there, the stronger one holds as well. Powers are
+/// compared with the ball that has the most in the middle of the box. A difference of two powers is
+/// linear, so along each axis it is smallest at one of the ends.
 ///
-/// Cost: about 4 ns a ball and box. In doubles, with room for rounding, so that balls of any size are compared
-/// safely: a ball that does not matter may be listed, but none that matters is left out.
+/// Cost: about 4 ns a ball and box. In doubles, with room for rounding, so that balls of any size
+/// are compared safely: a ball that does not matter may be listed, but none that matters is left
+/// out.
 
 #pragma once
 
@@ -52,9 +53,10 @@ class BallsInBox {
 public:
     explicit BallsInBox(const std::vector<ExactSphere>& balls);
 
-    /// Appends to @a to those of @a from that meet the box, in order, but for some that have less power in all of
-    /// it than the strongest one so far.
-    /// @param untilHeld  stop soon after a strongest ball that holds all of the box: what follows may be left out
+    /// Appends to @a to those of @a from that meet the box, in order, but for some that have less
+    /// power in all of it than the strongest one so far.
+    /// @param untilHeld  stop soon after a strongest ball that holds all of the box: what follows
+    ///                   may be left out
     /// @param strongest  of the same box, of balls before these; receives that of those looked at
     void list(const openvdb::CoordBBox& box, const std::vector<int32_t>& from, bool untilHeld,
         StrongestBall& strongest, std::vector<int32_t>& to) const;

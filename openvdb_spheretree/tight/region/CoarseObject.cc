@@ -36,24 +36,24 @@ CoarseObject pyramidOf(const openvdb::MaskTree::ConstPtr& voxels, int dim, int64
     return object;
 }
 
-/// @return from how many leaf balls levels of named counts are made, at least. With fewer, a voxel of the
-/// coarse object is too large for its balls.
+/// @return from how many leaf balls levels of named counts are made, at least. With fewer, a voxel
+/// of the coarse object is too large for its balls.
 int64_t leastLeafBalls(int64_t count, Quality quality)
 {
     constexpr int64_t kLeast = 2048;
     return std::max(kLeast, (quality == Quality::Fast ? 3 : 4) * count);
 }
 
-/// @return of how many voxels the object is large enough for that, whatever its leaf balls: a ball of the finest
-/// level has a radius of 32 of them.
+/// @return of how many voxels the object is large enough for that, whatever its leaf balls: a ball
+/// of the finest level has a radius of 32 of them.
 int64_t enoughVoxels(int64_t count)
 {
     constexpr int64_t kOfABall = 140000;
     return count * kOfABall;
 }
 
-/// @return whether the number of spheres does not follow from the settings alone, or all levels need
-/// the object's own leaf balls.
+/// @return whether the number of spheres does not follow from the settings alone, or all levels
+/// need the object's own leaf balls.
 bool needsLeafBalls(const TightOptions& options)
 {
     return options.budget.hasBound() || options.budget.spheres.empty() || options.cuts
@@ -80,7 +80,7 @@ WorkingMemory leastAllowed(const SphereTreeSettings& settings, std::size_t leafN
 {
     const TightOptions& options = settings.tight();
     WorkingMemory memory;
-    memory.addSamples(leafNodes);
+    memory.addSamples(leafNodes, settings.dim);
     if (needsLeafBalls(options)) return memory;
     const double voxels = double(kLeafVoxels) * double(leafNodes);
     for (const int64_t count : options.budget.counts(INT64_MAX)) {

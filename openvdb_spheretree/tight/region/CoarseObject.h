@@ -2,9 +2,9 @@
 /// @file CoarseObject.h
 /// @brief An object at the resolution that suits its spheres: a level of its OR-pyramid.
 ///
-/// Few large spheres do not see single voxels: what they lose on a coarse level is about the coarse voxel
-/// against their radius. Of the levels that have enough leaf balls for the spheres that are asked for, the
-/// coarsest is taken. So its cost goes by the spheres, plus the pyramid.
+/// Few large spheres do not see single voxels: what they lose on a coarse level is about the coarse
+/// voxel against their radius. Of the levels that have enough leaf balls for the spheres that are
+/// asked for, the coarsest is taken. So its cost goes by the spheres, plus the pyramid.
 
 #pragma once
 
@@ -34,8 +34,8 @@ struct CoarseObject {
     std::vector<int64_t> leafNodesBelow(std::size_t level) const;
 };
 
-/// How large a level of the pyramid has to be: as many leaf balls, or as many voxels, as of an object like a
-/// ball.
+/// How large a level of the pyramid has to be: as many leaf balls, or as many voxels, as of an
+/// object like a ball.
 struct CoarseSize {
     int64_t leafBalls = INT64_MAX, voxels = INT64_MAX;
 };
@@ -43,8 +43,9 @@ struct CoarseSize {
 /// @return the size that levels of named counts need; for all others, that of no coarse level.
 CoarseSize sizeFor(const TightOptions& options);
 
-/// @return what a tree has to be allowed whatever its leaf balls are: samples of the object, and what is enough for regions
-/// of named counts, which are all there at a time where levels are carried down.
+/// @return what a tree has to be allowed whatever its leaf balls are: samples of the object, and
+/// what is enough for regions of named counts, which are all there at a time where levels are
+/// carried down.
 /// @param settings   of a tight tree
 /// @param leafNodes  of the object
 WorkingMemory leastAllowed(const SphereTreeSettings& settings, std::size_t leafNodes);

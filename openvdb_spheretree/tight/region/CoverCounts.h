@@ -3,12 +3,12 @@
 /// @brief How many balls of a cover hold each object voxel, for 512 voxels of a leaf at a time.
 ///
 /// The counts of a leaf are stored as bit planes: plane i is the mask of the voxels whose count has
-/// bit i. To add a ball, carries ripple from plane to plane; most end after two. Balls that hold all of
-/// a leaf are counted in one number beside the planes. A large ball holds most of the leaves that it
-/// reaches.
+/// bit i. To add a ball, carries ripple from plane to plane; most end after two. Balls that hold
+/// all of a leaf are counted in one number beside the planes. A large ball holds most of the leaves
+/// that it reaches.
 ///
-/// Which voxels would be uncovered without one ball, or two, follows from the voxels that are held by
-/// exactly one, or two. Many threads may read these at the same time.
+/// Which voxels would be uncovered without one ball, or two, follows from the voxels that are held
+/// by exactly one, or two. Many threads may read these at the same time.
 ///
 /// Memory: 4 bytes a leaf, and 64 for each bit of the largest possible count.
 

@@ -12,8 +12,9 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @return by how much balls are dilated so that one in @a ratio is left, in 1/16 voxel. It was measured for models,
-/// scans and thin structures: 1 + 3 x + x^2 for x voxels, within a fifth of it.
+/// @return by how much balls are dilated so that one in @a ratio is left, in 1/16 voxel. It was
+/// measured for models, scans and thin structures: 1 + 3 x + x^2 for x voxels, within a fifth of
+/// it.
 int64_t dilationFor(double ratio)
 {
     const double most = double(kMostPerDilated);

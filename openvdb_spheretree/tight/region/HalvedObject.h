@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file HalvedObject.h
-/// @brief The object at half the resolution, the next level of its OR-pyramid, with balls and regions of it.
+/// @brief The object at half the resolution, the next level of its OR-pyramid, with balls and
+/// regions of it.
 
 #pragma once
 

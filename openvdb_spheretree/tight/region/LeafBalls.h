@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file LeafBalls.h
-/// @brief The balls that level 0 of a tight tree is made of: medial balls, or spheres that were given.
+/// @brief The balls that level 0 of a tight tree is made of: medial balls, or spheres that were
+/// given.
 
 #pragma once
 
@@ -26,8 +27,9 @@ struct LeafBalls {
 LeafBalls medialLeaves(const MedialLevel& level, const SampleLevel& object, Leaves which,
     openvdb::util::NullInterrupter* interrupter);
 
-/// @brief Given spheres that hold a voxel of the object, in their order. Centers are rounded to 1/16 of a
-/// voxel, and radii grow by as much as that moves them, so that a ball contains its given sphere.
+/// @brief Given spheres that hold a voxel of the object, in their order. Centers are rounded to
+/// 1/16 of a voxel, and radii grow by as much as that moves them, so that a ball contains its given
+/// sphere.
 /// @param given  a tree of them in the frame of the object (GivenTree.h)
 /// @param flat   how @a object was turned
 /// @throw openvdb::ValueError if voxels of the object are in no ball, with their number and one of

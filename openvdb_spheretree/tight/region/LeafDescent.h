@@ -18,8 +18,8 @@
 
 namespace openvdb_spheretree::tight {
 
-/// Appends to @a to those balls of @a from that matter in a box of voxels, in order. Called by several
-/// threads.
+/// Appends to @a to those balls of @a from that matter in a box of voxels, in order. Called by
+/// several threads.
 using BallFilter = std::function<void(
     const openvdb::CoordBBox& box, const std::vector<int32_t>& from, std::vector<int32_t>& to)>;
 

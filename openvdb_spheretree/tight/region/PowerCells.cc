@@ -22,8 +22,8 @@ struct CellPart {
     LeafMask mask;
 };
 
-/// @return a filter that drops the balls with less power, in all of a box, than the one with the most
-/// power in its middle.
+/// @return a filter that drops the balls with less power, in all of a box, than the one with the
+/// most power in its middle.
 BallFilter ballsWithPower(const BallsInBox& inBox)
 {
     return [&](const openvdb::CoordBBox& box, const std::vector<int32_t>& from,

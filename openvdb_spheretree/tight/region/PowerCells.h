@@ -6,9 +6,9 @@
 /// equals, of the larger ball, then of the first. (PowerMap.h finds such labels among all medial
 /// balls, here they are few.)
 ///
-/// The difference of two powers is linear. So a ball with less power than another one at all corners of
-/// a box has less in all of the box, and is left out there and in its parts (RegionHalving.h). With
-/// dragon-512 that took a quarter of the time.
+/// The difference of two powers is linear. So a ball with less power than another one at all
+/// corners of a box has less in all of the box, and is left out there and in its parts
+/// (RegionHalving.h). With dragon-512 that took a quarter of the time.
 
 #pragma once
 

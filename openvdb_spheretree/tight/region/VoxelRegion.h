@@ -22,8 +22,8 @@ struct RegionLeaf {
     const LeafMask& mask; ///< lives as long as the region, and until that changes
 };
 
-/// In the order of leaves; no part is empty. Where it has all voxels that the object has in a leaf, it takes 8 bytes,
-/// and 72 elsewhere: large balls hold most leaves as a whole.
+/// In the order of leaves; no part is empty. Where it has all voxels that the object has in a leaf,
+/// it takes 8 bytes, and 72 elsewhere: large balls hold most leaves as a whole.
 class VoxelRegion {
     struct Part {
         uint32_t leaf, mask; ///< the number of its mask, or kWhole

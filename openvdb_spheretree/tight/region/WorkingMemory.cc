@@ -11,10 +11,11 @@
 
 namespace openvdb_spheretree::tight {
 
-WorkingMemory& WorkingMemory::addSamples(std::size_t leafNodes)
+WorkingMemory& WorkingMemory::addSamples(std::size_t leafNodes, int dim)
 {
-    constexpr double kLevels = 1.15, kBytes = 84; // all levels, for each of the finest
-    bytes += kLevels * kBytes * double(leafNodes);
+    constexpr double kBytes = 84;
+    const double levels = dim == 2 ? 1.34 : 1.15; // leaves of all levels, for each of the finest
+    bytes += levels * kBytes * double(leafNodes);
     return *this;
 }
 
@@ -51,7 +52,8 @@ WorkingMemory& WorkingMemory::guessRegions(
         const double side = 2 * ball.radius() / double(kFine * kLeafDim) + 1;
         const double inBall = kOfCube * side * side * side;
         const double leaves = std::min(double(leafNodes), inBall);
-        // Those that it holds in part are two leaves deep at most; all of the object's may be there.
+        // Those that it holds in part are two leaves deep at most; all of the object's may be
+        // there.
         const double depth = std::max(0.0, 1 - 4 / side);
         const double parts = std::min(leaves, inBall * (1 - depth * depth * depth));
         addRegion({leaves, leaves - parts});
@@ -61,8 +63,8 @@ WorkingMemory& WorkingMemory::guessRegions(
 
 WorkingMemory& WorkingMemory::guessCover(double balls, std::size_t leafNodes, int dim)
 {
-    // Of a share of 3,000 leaf nodes a ball was seen to meet 4,800 at most; of 500 1,500, of 60 600, of 10 270, and of 0.2 10:
-    // those in a cube around it.
+    // Of a share of 3,000 leaf nodes a ball was seen to meet 4,800 at most; of 500 1,500, of 60
+    // 600, of 10 270, and of 0.2 10: those in a cube around it.
     constexpr double kBeyond = 4.6, kTimes = 2.6, kWhole = 0.4;
     const double share = std::pow(double(leafNodes) / balls, 1.0 / dim);
     const double side = std::min(share + kBeyond, 1 + kTimes * share);

@@ -20,8 +20,8 @@ struct LeafPart {
     LeafMask mask;
 };
 
-/// Descends into cubes that have leaves of the object and that a removed ball reaches, unless another
-/// ball holds all of one.
+/// Descends into cubes that have leaves of the object and that a removed ball reaches, unless
+/// another ball holds all of one.
 class UncoveredVoxels {
 public:
     UncoveredVoxels(const VoxelGoal& goal, const SampleLevel& object,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverGoal.h
-/// @brief What a cover has to hold, and so which voxels would be uncovered without some of its balls.
+/// @brief What a cover has to hold, and so which voxels would be uncovered without some of its
+/// balls.
 ///
-/// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a whole:
-/// the power cell of a ball of the next finer level, which becomes a child of the ball that holds it.
+/// A cover is of voxels, or of units. A unit is a set of voxels that one ball has to hold as a
+/// whole: the power cell of a ball of the next finer level, which becomes a child of the ball that
+/// holds it.
 
 #pragma once
 
@@ -24,8 +26,8 @@ public:
     virtual ~CoverGoal() = default;
     /// @param removed  balls taken out of the cover
     /// @param others   at least all other balls that meet one of them; empty balls hold nothing
-    /// @param points   receives extreme points of the voxels that only the removed balls hold: a ball
-    ///                 that holds the points holds these voxels
+    /// @param points   receives extreme points of the voxels that only the removed balls hold: a
+    ///                 ball that holds the points holds these voxels
     virtual void collectUncovered(const std::vector<CoverBall>& removed,
         const std::vector<CoverBall>& others, std::vector<openvdb::Coord>& points) const = 0;
 };

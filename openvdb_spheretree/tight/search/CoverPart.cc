@@ -12,8 +12,8 @@ namespace {
 
 using openvdb::Coord;
 
-/// @return the other balls that may share a voxel with one of @a removed. The largest is first: it is
-/// the likeliest to hold all that would be uncovered.
+/// @return the other balls that may share a voxel with one of @a removed. The largest is first: it
+/// is the likeliest to hold all that would be uncovered.
 std::vector<CoverBall> othersOf(const CoverPart& part, const std::vector<std::size_t>& removed)
 {
     std::vector<CoverBall> others;

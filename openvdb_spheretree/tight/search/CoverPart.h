@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverPart.h
-/// @brief The cover that is searched, and a copy of a part of it, to try changes on before one is made.
+/// @brief The cover that is searched, and a copy of a part of it, to try changes on before one is
+/// made.
 
 #pragma once
 
@@ -73,7 +74,8 @@ struct CoverPart {
 
     /// @return the place of a ball in the lists.
     std::size_t indexOf(int32_t id) const;
-    /// @return the other balls, beside @a id, whose boxes meet a box that does not reach out of the part.
+    /// @return the other balls, beside @a id, whose boxes meet a box that does not reach out of the
+    /// part.
     std::vector<int32_t> meeting(const FineBox& some, int32_t id) const;
 };
 
@@ -119,7 +121,8 @@ public:
     void refit(CoverPart& part, std::size_t i) const;
     /// Does that for those of the balls @a ids that touch @a ball.
     void refitNear(CoverPart& part, const std::vector<int32_t>& ids, const ExactSphere& ball) const;
-    /// Places ball @a successor for the voxels that only it and ball @a i hold, and drops ball @a i.
+    /// Places ball @a successor for the voxels that only it and ball @a i hold, and drops ball @a
+    /// i.
     /// @return whether there were such voxels, and room.
     bool takeOver(CoverPart& part, std::size_t i, std::size_t successor) const;
 
@@ -128,8 +131,8 @@ public:
     CoverChange changeOf(const CoverPart& part) const;
 
 private:
-    /// @return a fit for ball @a i: targets and replaced balls are as of CoveringFit::open(), and what
-    /// the other balls of the part hold costs nothing.
+    /// @return a fit for ball @a i: targets and replaced balls are as of CoveringFit::open(), and
+    /// what the other balls of the part hold costs nothing.
     template <typename Targets>
     class CoveringFit& fitFor(const CoverPart& part, std::size_t i, const Targets& targets,
         const std::vector<ExactSphere>& replaced) const;

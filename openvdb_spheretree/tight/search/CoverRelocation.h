@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverRelocation.h
-/// @brief Balls of a cover move elsewhere. One is removed, and a neighbour grows to hold the voxels that
-/// only it held. A small one is inserted at another place, and its neighbours shrink.
+/// @brief Balls of a cover move elsewhere. One is removed, and a neighbour grows to hold the voxels
+/// that only it held. A small one is inserted at another place, and its neighbours shrink.
 
 #pragma once
 
@@ -23,7 +23,8 @@ public:
         : mCover(cover), mFit(fit), mFiner(finer), mInterrupter(interrupter)
     {}
 
-    /// Pairs the cheapest removals with the best of many insertions, as long as that lowers the cost.
+    /// Pairs the cheapest removals with the best of many insertions, as long as that lowers the
+    /// cost.
     void relocate();
     /// Inserts balls in place of dropped ones, as long as that lowers the cost.
     void fill();

@@ -14,8 +14,8 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too. Only the first few are looked
-/// at, as a list may be long.
+/// Takes the first balls off the list whose surroundings do not meet. Empty ones go, too. Only the
+/// first few are looked at, as a list may be long.
 std::vector<int32_t> takeApart(std::deque<int32_t>& ids, const BallCover& cover)
 {
     constexpr std::size_t kMost = 64, kSeen = 4 * kMost;
@@ -34,7 +34,8 @@ std::vector<int32_t> takeApart(std::deque<int32_t>& ids, const BallCover& cover)
     return taken;
 }
 
-/// The loops of a search. About how many turns they have is known before, so it can tell how far it is.
+/// The loops of a search. About how many turns they have is known before, so it can tell how far it
+/// is.
 class SearchLoops {
 public:
     SearchLoops(
@@ -67,8 +68,8 @@ private:
     openvdb::util::NullInterrupter* mInterrupter;
 };
 
-/// Places every ball anew, the largest first, in sweeps until nothing changes. A ball that no change came near
-/// since it was placed stays.
+/// Places every ball anew, the largest first, in sweeps until nothing changes. A ball that no
+/// change came near since it was placed stays.
 /// @param change  the change of the cost is added to it
 void placeAll(BallCover& cover, const PartFit& fit, double& change, SearchLoops& loops)
 {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file CoverSearch.h
-/// @brief Makes a cover cheaper with the same number of balls: places each anew, tries changes, and keeps
-/// what lowers the cost.
+/// @brief Makes a cover cheaper with the same number of balls: places each anew, tries changes, and
+/// keeps what lowers the cost.
 ///
 /// 1. Every ball is placed anew, over and over, until nothing changes.
 /// 2. Many trials disturb one ball and refit its neighbours (CoverTrial.h). A few times in a
 ///    search, balls move elsewhere (CoverRelocation.h).
 /// 3. Every ball is placed anew once more.
 ///
-/// Trials of a batch start from the same cover and run in parallel. Of those that lower the cost, the
-/// first ones whose surroundings do not meet are kept. A counter decides what is tried, and the number
-/// of balls how often. So the result depends neither on the number of threads nor on their speed.
+/// Trials of a batch start from the same cover and run in parallel. Of those that lower the cost,
+/// the first ones whose surroundings do not meet are kept. A counter decides what is tried, and the
+/// number of balls how often. So the result depends neither on the number of threads nor on their
+/// speed.
 
 #pragma once
 

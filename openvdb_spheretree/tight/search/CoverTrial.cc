@@ -14,9 +14,9 @@ namespace openvdb_spheretree::tight {
 
 namespace {
 
-/// @return by how many voxels the cost of a ball may rise where it is disturbed: its neighbours seldom make up for more. A third
-/// of all trials end there, and 3 to 10 % of what they gain is lost.
-/// @param cost  of the ball before
+/// @return by how much the cost of a ball may rise where it is disturbed: by half of what it was,
+/// and half a layer of voxels around it. Its neighbours seldom make up for more: a third of all
+/// trials end here, and what a search gains is 3 to 10 % less.
 double mostRegained(double cost, const ExactSphere& ball, bool flat)
 {
     const double radius = ball.radius() / double(kFine), pi = openvdb::math::pi<double>();

@@ -95,4 +95,16 @@ TEST(LevelMaker, HalvesInEqualSteps)
     }
 }
 
+TEST(LevelMaker, ManyBallsDescendFromTheirBestStartAlone)
+{
+    const SampledObject object = sampled({Coord(0, 0, 0)});
+    FitEffort effort = kAll;
+    for (const bool restarts : {false, true}) {
+        effort.restarts = restarts;
+        const LevelMaker maker{{effort}, object, false, nullptr};
+        EXPECT_EQ(maker.fitOf(kFewOnCoarse).restarts, restarts);
+        EXPECT_FALSE(maker.fitOf(kFewOnCoarse + 1).restarts);
+    }
+}
+
 } // namespace

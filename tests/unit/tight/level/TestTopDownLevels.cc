@@ -6,6 +6,8 @@
 #include <openvdb_spheretree/tight/cluster/ClusterCover.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace {
 
@@ -33,6 +35,11 @@ std::vector<int64_t> aroundBelow(
     FreeCovers free(merged.leaves, true, merged.maker);
     return expectChains(
         topDownLevels(counts, free, true, Quality::Fast, merged.maker, given), merged.voxels);
+}
+
+int64_t sumOf(const std::vector<int64_t>& around)
+{
+    return std::accumulate(around.begin(), around.end(), int64_t(0));
 }
 
 Voxels ring(int count)
@@ -100,6 +107,21 @@ TEST(TopDownLevels, OfARingAreNotWorseThanOneBall)
     }
 }
 
+/// Of given leaf balls nobody asked before whether their levels have room.
+TEST(TopDownLevels, RegionsThatNeedMoreThanThereMayBeAreRefused)
+{
+    Merged merged(shapes::box(Coord(20, 6, 9)));
+    const std::vector<int64_t> counts{9, 5, 3, 1};
+    int64_t most = 0;
+    for (const TightLevel& level : levelsOf(merged, counts, Quality::Fast)) {
+        most = std::max(most, int64_t(std::ceil(merged.maker.regionMemory(level.balls).bytes)));
+    }
+    merged.maker.memory = most;
+    EXPECT_NO_THROW(levelsOf(merged, counts, Quality::Fast));
+    merged.maker.memory = most - 1;
+    EXPECT_THROW(levelsOf(merged, counts, Quality::Fast), openvdb::ValueError);
+}
+
 /// More balls could not be better.
 TEST(TopDownLevels, WorkEndsWhereOneBallCostsNothing)
 {
@@ -120,7 +142,7 @@ TEST(TopDownLevels, OfGivenOnesNoneCostsMore)
                    quick = expectChains(levelsOf(merged, counts, Quality::Fast), merged.voxels);
         const auto found = aroundBelow(merged, counts, given);
         for (std::size_t k = 0; k < counts.size(); ++k) EXPECT_LE(found[k], around[k]);
-        EXPECT_LT(found, quick);
+        EXPECT_LT(sumOf(found), sumOf(quick));
         const ExactSphere all = merged.cut(1).front();
         EXPECT_EQ(
             aroundBelow(merged, counts, {{{all}, {0}, {}}, {{all}, {0}, {}}, {{all}, {}, {}}}),

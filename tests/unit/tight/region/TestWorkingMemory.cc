@@ -103,9 +103,11 @@ TEST(WorkingMemory, OfACoverIsEnoughForBallsOfAnySizeInASolid)
 TEST(WorkingMemory, AddsUpAndIsRefusedWithBothNumbers)
 {
     WorkingMemory some;
-    some.addSamples(1000);
+    some.addSamples(1000, 3);
     const double samples = some.bytes;
     EXPECT_GE(samples, 1000 * 72);
+    // A leaf's mask, origin and column, of levels that each have a quarter of the leaves of the one before.
+    EXPECT_GE(WorkingMemory().addSamples(1000, 2).bytes, 1000 * 80 * 4.0 / 3);
     some.addMerging(10000);
     EXPECT_GE(some.bytes - samples, 1200 * 10000);
     EXPECT_NO_THROW(some.require(int64_t(some.bytes) + 1, "things"));
