@@ -349,8 +349,8 @@ Setting distanceRow()
             auto* options = settings.find<BudgetOptions>();
             setDistanceBound(options ? options->budget : other, text);
         },
-        "the level of fewest spheres that reach at most so far out of the object's voxels, as they "
-        "are stored: in world units, such as 5, or in voxels, such as 2vox (tight)");
+        "a level of few spheres that reach at most so far out of the object's voxels, as they are "
+        "stored: in world units, such as 5, or in voxels, such as 2vox (tight)");
     setting.type = SettingType::Length;
     setting.lowest = 0;
     setting.isOptional = setting.isBound = true;
@@ -435,7 +435,7 @@ std::vector<Setting> makeTable()
         spheresRow(), branchingRow(),
         bound<BudgetOptions>(
             "error", 17, [](auto& options) -> auto& { return options.budget.error; },
-            "the level of fewest spheres whose Hamming error, as they are stored, is at most this, "
+            "a level of few spheres whose Hamming error, as they are stored, is at most this, "
             "in % (tight)"),
         distanceRow(), boundsRow(),
         choice<TightOptions>("cover", 19, kCovers, &TightOptions::cover,

@@ -135,7 +135,7 @@ def build(
     branching
         Of tight trees, in place of `spheres`.
     error
-        Of tight trees: the level of fewest spheres whose Hamming error, as they are stored, is at most this, in %.
+        Of tight trees: a level of few spheres whose Hamming error, as they are stored, is at most this, in %.
     distance
         The same of their reach out of the object's voxels: in world units, or in voxels, such as ``"2vox"``.
     bounds

@@ -309,4 +309,25 @@ TEST_F(CommandTight, HelpNamesEveryOptionAndTheTreesThatItIsFor)
     }
 }
 
+/// The finest level may lack one sphere, a coarser one a quarter of them.
+TEST_F(CommandTight, LevelsOfFewerSpheresThanWereAskedForAreTold)
+{
+    const Result result =
+        run("-generate noise voxels=3000 -spheretree spheres=24,8,3 quality=fast -stats json=-");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const std::vector<int> asked{24, 8, 3};
+    const std::vector<int> there = spheresOf(nlohmann::json::parse(result.out));
+    ASSERT_EQ(there.size(), asked.size());
+    int told = 0;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        const bool isShort = k == 0 ? there[k] < asked[k] : there[k] < asked[k] - asked[k] / 4;
+        const std::string note = "note: " + std::to_string(there[k]) + " sphere"
+            + (there[k] == 1 ? " does" : "s do") + " for spheres=" + std::to_string(asked[k])
+            + ": with more, nothing better was found";
+        EXPECT_EQ(result.err.find(note) != std::string::npos, isShort) << result.err;
+        told += isShort;
+    }
+    EXPECT_GT(told, 0);
+}
+
 } // namespace

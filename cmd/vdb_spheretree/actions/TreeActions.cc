@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -94,18 +95,23 @@ void noteIfAll(int64_t asked, int64_t all, Session& session)
         + (all == 1 ? "the only one is taken" : "all " + std::to_string(all) + " are taken"));
 }
 
-/// The finest level that was asked for may have fewer spheres: all leaves that there are, or all that hold
-/// something of their own.
+/// Levels may have fewer spheres than were asked for: all leaves that there are, or nothing better was found with more.
+/// Of coarser levels a few are always missing, as a sphere without a child is dropped.
 void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
 {
     if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
-    const int64_t most = *std::max_element(budget.spheres.begin(), budget.spheres.end());
+    std::vector<int64_t> counts = budget.spheres;
+    std::sort(counts.begin(), counts.end(), std::greater<>());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
     const auto& finest = tree.levels.front();
     const bool areLeaves = finest.pyramidVoxels > 0;
-    if (areLeaves) return noteIfAll(most, finest.size(), session);
-    if (finest.size() >= most) return;
-    session.note(counted(finest.size(), "sphere") + (finest.size() == 1 ? " does" : " do")
-        + " for spheres=" + std::to_string(most) + ": more would hold no voxel of their own");
+    if (areLeaves) return noteIfAll(counts.front(), finest.size(), session);
+    for (std::size_t k = 0; k < std::min(counts.size(), tree.levels.size()); ++k) {
+        const int64_t there = tree.levels[k].size();
+        if (there >= (k == 0 ? counts[k] : counts[k] - counts[k] / 4)) continue;
+        session.note(counted(there, "sphere") + (there == 1 ? " does" : " do") + " for spheres="
+            + std::to_string(counts[k]) + ": with more, nothing better was found");
+    }
 }
 
 /// The newest spheres that were read.

@@ -142,8 +142,9 @@ void CutErrors::throwTooMany(int64_t count)
                             << "; the fewest found within it: "
                             << (isKnown ? figures(count) : std::to_string(count) + " spheres")
                             << "; " << figures(most)
-                            << "; allow more of them, or a looser bound; other voxels and "
-                               "quality=best may take fewer");
+                            << "; allow more of them, or a looser bound; other voxels may take "
+                               "fewer, and a tree of named numbers alone, such as spheres="
+                            << most << ", may be within it");
 }
 
 } // namespace
