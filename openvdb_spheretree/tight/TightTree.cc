@@ -137,7 +137,9 @@ std::vector<TightLevel> levelsOfCounts(const SphereTree& tree, const CoarseObjec
         : bottomUpLevels({free.searched(counts.front()), {}, {}}, counts, maker);
     std::optional<SampledObject> finer;
     for (std::size_t step = coarse.steps.size(); step-- > 0;) {
-        finer.emplace(LeafLayout(*coarse.levels[step]), settings.dim == 2);
+        detail::timed("", maker.interrupter, nullptr, [&] {
+            finer.emplace(LeafLayout(*coarse.levels[step]), settings.dim == 2, maker.interrupter);
+        });
         levels =
             carriedDown(std::move(levels), coarse.steps[step], step == 0 ? most : counts.front(),
                 levelMakerFor(settings, *finer, leafBalls.size(), maker.interrupter));
@@ -154,7 +156,8 @@ CoarseObject objectOf(const SphereTree& given, const FlatAxis& flat,
 {
     CoarseObject object;
     object.levels.push_back(voxels);
-    object.samples = SampledObject(LeafLayout(*voxels), given.settings.dim == 2);
+    object.samples = detail::timed("leaves", interrupter, nullptr,
+        [&] { return SampledObject(LeafLayout(*voxels), given.settings.dim == 2, interrupter); });
     object.leaves = givenLeaves(given, flat, *voxels, object.samples.level(0), interrupter);
     return object;
 }

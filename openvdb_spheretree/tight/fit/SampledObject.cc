@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampledObject.h"
 
+#include <openvdb_spheretree/base/Parallel.h>
+#include <openvdb_spheretree/base/ParallelSort.h>
+
 #include <utility>
 
 namespace openvdb_spheretree::tight {
@@ -20,30 +23,54 @@ uint64_t everySecond(uint64_t word)
     return bits;
 }
 
+/// Adds a leaf's samples of even coordinates to those of a leaf of the coarser level.
 /// @param isFlat  the samples of one z, which may be odd, become those of the even z below it
-SampleLevel coarser(const SampleLevel& fine, bool isFlat)
+void addEverySecond(const LeafMask& fine, const Coord& origin, bool isFlat, LeafMask& coarse)
 {
-    std::vector<std::pair<Coord, uint32_t>> order; // leaves by the one that takes their samples
-    for (uint32_t leaf = 0; leaf < fine.leafCount(); ++leaf) {
-        order.emplace_back((fine.origin(leaf) >> 1) & ~7, leaf);
+    const Coord corner = (origin >> 1) & 4;
+    for (int x = 0; x < 4; ++x) {
+        const uint64_t word = isFlat ? fine[2 * x] | fine[2 * x] >> 1 : fine[2 * x];
+        coarse[corner[0] + x] |= everySecond(word) << (8 * corner[1] + corner[2]);
     }
-    std::sort(order.begin(), order.end());
+}
+
+/// A leaf, and the one of the coarser level that takes its samples.
+struct Child {
+    Coord parent;
+    uint32_t leaf;
+
+    bool operator<(const Child& o) const
+    {
+        return parent != o.parent ? parent < o.parent : leaf < o.leaf;
+    }
+};
+
+SampleLevel coarser(
+    const SampleLevel& fine, bool isFlat, openvdb::util::NullInterrupter* interrupter)
+{
+    std::vector<Child> order(fine.leafCount());
+    detail::parallelFor(order.size(), interrupter, [&](std::size_t leaf) {
+        order[leaf] = {(fine.origin(leaf) >> 1) & ~7, uint32_t(leaf)};
+    });
+    detail::parallelSort(order.begin(), order.end(), interrupter);
+    std::vector<std::size_t> begin; // in `order`, of each coarser leaf, and the end
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || order[i].parent != order[i - 1].parent) begin.push_back(i);
+    }
+    begin.push_back(order.size());
+    std::vector<LeafMask> all(begin.size() - 1, LeafMask{});
+    detail::parallelFor(all.size(), interrupter, [&](std::size_t k) {
+        for (std::size_t i = begin[k]; i < begin[k + 1]; ++i) {
+            const uint32_t leaf = order[i].leaf;
+            addEverySecond(fine.mask(leaf), fine.origin(leaf), isFlat, all[k]);
+        }
+    });
     std::vector<Coord> origins;
     std::vector<LeafMask> masks;
-    for (std::size_t i = 0; i < order.size();) {
-        const Coord origin = order[i].first;
-        LeafMask mask{};
-        for (; i < order.size() && order[i].first == origin; ++i) {
-            const LeafMask& child = fine.mask(order[i].second);
-            const Coord corner = (fine.origin(order[i].second) >> 1) & 4;
-            for (int x = 0; x < 4; ++x) {
-                const uint64_t word = isFlat ? child[2 * x] | child[2 * x] >> 1 : child[2 * x];
-                mask[corner[0] + x] |= everySecond(word) << (8 * corner[1] + corner[2]);
-            }
-        }
-        if (mask.none()) continue;
-        origins.push_back(origin);
-        masks.push_back(mask);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (all[k].none()) continue;
+        origins.push_back(order[begin[k]].parent);
+        masks.push_back(all[k]);
     }
     return SampleLevel(std::move(origins), std::move(masks));
 }
@@ -60,14 +87,14 @@ int32_t planeOf(const SampleLevel& voxels)
     return voxels.origin(0)[2]; // no leaf is without voxels
 }
 
-SampleLevel levelOf(const LeafLayout& object)
+SampleLevel levelOf(const LeafLayout& object, openvdb::util::NullInterrupter* interrupter)
 {
-    std::vector<Coord> origins;
-    std::vector<LeafMask> masks;
-    for (uint32_t leaf = 0; leaf < object.leafCount(); ++leaf) {
-        origins.push_back(object.origin(leaf));
-        masks.push_back(object.mask(leaf));
-    }
+    std::vector<Coord> origins(object.leafCount());
+    std::vector<LeafMask> masks(object.leafCount());
+    detail::parallelFor(origins.size(), interrupter, [&](std::size_t leaf) {
+        origins[leaf] = object.origin(uint32_t(leaf));
+        masks[leaf] = object.mask(uint32_t(leaf));
+    });
     return SampleLevel(std::move(origins), std::move(masks));
 }
 
@@ -102,17 +129,19 @@ std::size_t SampleLevel::firstLeaf(std::size_t column, int32_t z) const
     return std::size_t(std::lower_bound(begin, end, z, below) - mOrigins.begin());
 }
 
-SampledObject::SampledObject(const LeafLayout& object, bool isFlat)
-    : SampledObject(levelOf(object), isFlat)
+SampledObject::SampledObject(
+    const LeafLayout& object, bool isFlat, openvdb::util::NullInterrupter* interrupter)
+    : SampledObject(levelOf(object, interrupter), isFlat, interrupter)
 {}
 
-SampledObject::SampledObject(SampleLevel finest, bool isFlat)
+SampledObject::SampledObject(
+    SampleLevel finest, bool isFlat, openvdb::util::NullInterrupter* interrupter)
 {
     if (isFlat && finest.leafCount() > 0) mPlane = planeOf(finest);
     mLevels.push_back(std::move(finest));
     constexpr int kMaxLevels = 32; // coordinates have 32 bits
     while (mLevels.back().leafCount() > 0 && levels() < kMaxLevels) {
-        mLevels.push_back(coarser(mLevels.back(), isFlat));
+        mLevels.push_back(coarser(mLevels.back(), isFlat, interrupter));
     }
 }
 

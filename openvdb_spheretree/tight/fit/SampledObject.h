@@ -17,6 +17,8 @@
 
 #include <openvdb_spheretree/voxel/LeafLayout.h>
 
+#include <openvdb/util/NullInterrupter.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -72,8 +74,11 @@ public:
     /// Of an object without voxels.
     SampledObject() : mLevels(1, SampleLevel({}, {})) {}
     /// @param isFlat  its voxels have one z, and balls are discs: samples of other z cost nothing
-    explicit SampledObject(const LeafLayout& object, bool isFlat = false);
-    explicit SampledObject(SampleLevel finest, bool isFlat = false);
+    /// @param interrupter  may be null
+    explicit SampledObject(const LeafLayout& object, bool isFlat = false,
+        openvdb::util::NullInterrupter* interrupter = nullptr);
+    explicit SampledObject(SampleLevel finest, bool isFlat = false,
+        openvdb::util::NullInterrupter* interrupter = nullptr);
 
     /// @param k  0 or more; levels beyond the last one have no samples
     const SampleLevel& level(int k) const

@@ -108,8 +108,9 @@ CoarseObject coarseObject(const openvdb::MaskTree::ConstPtr& voxels,
         const bool isObject = object.steps.empty();
         const MedialLevel medial(*object.levels.back(), settings.dim,
             isObject ? settings.dist() : Distance(), interrupter, seconds, queries);
-        object.samples = SampledObject(medial.layout, settings.dim == 2);
         object.leaves = detail::timed("leaves", interrupter, &seconds->tree, [&] {
+            object.samples = detail::timed("", interrupter, nullptr,
+                [&] { return SampledObject(medial.layout, settings.dim == 2, interrupter); });
             return medialLeaves(
                 medial, object.samples.level(0), settings.tight().leaves, interrupter);
         });
