@@ -25,8 +25,8 @@
 #include <openvdb/points/PointDataGrid.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -95,14 +95,13 @@ void noteIfAll(int64_t asked, int64_t all, Session& session)
         + (all == 1 ? "the only one is taken" : "all " + std::to_string(all) + " are taken"));
 }
 
-/// Levels may have fewer spheres than were asked for: all leaves that there are, or nothing better was found with more.
-/// Of coarser levels a few are always missing, as a sphere without a child is dropped.
+/// Levels may have fewer spheres than were asked for: all leaves that there are, or nothing better
+/// was found with more. Of coarser levels a few may be missing without a note: spheres without a
+/// child are dropped.
 void noteOnBudget(const SphereBudget& budget, const SphereTree& tree, Session& session)
 {
     if (budget.spheres.empty() || budget.hasBound()) return; // a bound may be met by fewer
-    std::vector<int64_t> counts = budget.spheres;
-    std::sort(counts.begin(), counts.end(), std::greater<>());
-    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+    const std::vector<int64_t> counts = budget.counts(INT64_MAX);
     const auto& finest = tree.levels.front();
     const bool areLeaves = finest.pyramidVoxels > 0;
     if (areLeaves) return noteIfAll(counts.front(), finest.size(), session);
